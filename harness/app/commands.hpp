@@ -1,0 +1,21 @@
+// The verbs of the command line; each adds its subcommand and runs when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "harness/app/failure.hpp"
+
+namespace ulpgate::app {
+
+// What the chosen verb does; set by the subcommand's callback.
+using Action = std::function<ExitCode()>;
+
+void add_list_command(CLI::App& app, Action& action);
+void add_math_command(CLI::App& app, Action& action);
+void add_at_command(CLI::App& app, Action& action);
+void add_merge_command(CLI::App& app, Action& action);
+void add_gate_command(CLI::App& app, Action& action);
+void add_report_command(CLI::App& app, Action& action);
+
+}  // namespace ulpgate::app

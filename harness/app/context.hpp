@@ -1,0 +1,14 @@
+// Context: where, with what and by which plan a run was made (context.json).
+#pragma once
+
+#include "harness/app/records.hpp"
+#include "harness/core/plan.hpp"
+
+namespace ulpgate::app {
+
+[[nodiscard]] Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads, bool complete);
+[[nodiscard]] Json type_rows(const std::vector<std::string>& tokens);
+// Throws a Failure unless rounding is to nearest and subnormals are neither flushed nor taken as zero.
+void assert_floating_point_environment();
+
+}  // namespace ulpgate::app

@@ -1,0 +1,81 @@
+// ulpgate list: what can be measured.
+#include <fmt/format.h>
+
+#include "harness/app/commands.hpp"
+#include "harness/app/context.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+std::string domains(const FunctionInfo& f) {
+  std::string text;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(f.arity); ++i) {
+    text += (i == 0 ? "" : ",") + std::string(name_of(f.domain[i]));
+  }
+  return text;
+}
+
+void list_functions(bool json) {
+  Json rows = Json::array();
+  if (!json) fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", "function", "class", "arity", "parts", "domain");
+  for (const auto& f : all_functions()) {
+    const std::string parts = f.parts == 1 ? "value" : "re,im";
+    if (json) {
+      rows.push_back({{"function", f.name}, {"class", name_of(f.function_class)}, {"arity", f.arity}, {"parts", parts},
+                      {"domain", domains(f)}});
+    } else {
+      fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", f.name, name_of(f.function_class), f.arity, parts, domains(f));
+    }
+  }
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
+void list_types(bool json) {
+  std::vector<std::string> tokens;
+  for (const auto& engine : all_engines()) tokens.push_back(engine->descriptor().token);
+  if (json) return fmt::print("{}\n", type_rows(tokens).dump(2));
+  const auto or_dash = [](int n) { return n == 0 ? std::string("-") : std::to_string(n); };
+  fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", "token", "C++ type", "total bits", "decimal places",
+             "exponent bits", "significand bits", "RealHP<4> bits");
+  for (const auto& engine : all_engines()) {
+    const RealDescriptor& d = engine->descriptor();
+    fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", d.token, d.cpp_type,
+               d.total_bits == 0 ? "N" : std::to_string(d.total_bits), d.decimal_places, or_dash(d.exponent_bits),
+               d.significand_bits, d.reference_bits);
+  }
+}
+
+void list_strata(bool json) {
+  Json rows = Json::array();
+  for (const auto& s : all_strata) {
+    if (json) {
+      rows.push_back({{"stratum", s.name}, {"description", s.description}});
+    } else {
+      fmt::print("{:<11} {}\n", s.name, s.description);
+    }
+  }
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, Action& action) {
+  auto* list = app.add_subcommand("list", "List functions, types or strata");
+  auto what = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  list->add_option("what", *what, "functions, types or strata")
+      ->required()
+      ->check(CLI::IsMember({"functions", "types", "strata"}));
+  list->add_flag("--json", *json, "Print JSON");
+  list->callback([=, &action] {
+    action = [=] {
+      if (*what == "functions") list_functions(*json);
+      if (*what == "types") list_types(*json);
+      if (*what == "strata") list_strata(*json);
+      return ExitCode::pass;
+    };
+  });
+}
+
+}  // namespace ulpgate::app

@@ -1,0 +1,192 @@
+// Engine<Real>: the implementation of TypeEngine, instantiated in one translation unit per type.
+#pragma once
+
+#include <algorithm>
+
+#include "harness/core/judging.hpp"
+#include "harness/core/oracle_defects.hpp"
+#include "harness/core/type_engine.hpp"
+#include "kernels/math/function_table.hpp"
+#include "reference/condition.hpp"
+#include "reference/text.hpp"
+
+namespace ulpgate {
+
+// One in this many samples is also evaluated with the family's RealHP<4>, chosen by its index.
+inline constexpr std::uint64_t oracle_stride = 251;
+// The oracles agree when they differ by less than this, in ULP of Real; both carry some 3 p bits more than Real.
+inline constexpr double oracle_tolerance_ulp = 0x1p-16;
+
+template <RealType Real>
+class Engine final : public TypeEngine {
+ public:
+  using Reference = RealHP<4, Real>;
+
+  Engine(RealDescriptor descriptor, FunctionTable<Real> functions, const FunctionTable<Reference>& family)
+      : descriptor_(std::move(descriptor)), functions_(std::move(functions)), family_(family) {}
+
+  [[nodiscard]] const RealDescriptor& descriptor() const override { return descriptor_; }
+
+  [[nodiscard]] std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source, std::uint64_t first,
+                                              std::uint64_t last, RowHint& hint) const override {
+    constexpr std::size_t batch_size = 256;
+    const auto arity = static_cast<std::size_t>(f.arity);
+    const auto parts = static_cast<std::size_t>(f.parts);
+    const Arguments<Real> arguments(f, source);
+    std::vector<Summary> summaries(parts);
+    std::vector<Real> args(batch_size * arity);
+    std::vector<Real> results(batch_size * parts);
+    std::vector<std::uint8_t> threw(batch_size);
+    std::vector<Judgement> judgements(batch_size * parts);
+    for (std::uint64_t k = first; k < last; k += batch_size) {
+      const std::size_t n = std::min<std::uint64_t>(batch_size, last - k);
+      for (std::size_t i = 0; i < n; ++i) arguments.make(k + i, &args[i * arity]);
+      std::fill(threw.begin(), threw.end(), std::uint8_t{0});
+      function(f)(args.data(), results.data(), threw.data(), n);
+      const Batch<Real> batch{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}};
+      judging_.judge(batch, judgements);
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < parts; ++j) {
+          const Judgement& judgement = judgements[i * parts + j];
+          summaries[j].add(judgement, k + i);
+          update_condition(f, &args[i * arity], static_cast<int>(j), judgement, summaries[j],
+                           hint.error_over_condition[j]);
+        }
+        if ((k + i) % oracle_stride == 0) compare_oracles(f, &args[i * arity], k + i, summaries);
+      }
+    }
+    return summaries;
+  }
+
+  [[nodiscard]] Point point(const FunctionInfo& f, const StratumSource& source, std::uint64_t k) const override {
+    std::vector<Real> args(static_cast<std::size_t>(f.arity));
+    Arguments<Real>(f, source).make(k, args.data());
+    return describe(f, args);
+  }
+
+  [[nodiscard]] Point point(const FunctionInfo& f, const std::vector<MpfrValue>& values) const override {
+    std::vector<Real> args;
+    for (const auto& v : values) args.push_back(from_mpfr<Real>(v));
+    return describe(f, args);
+  }
+
+  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(const FunctionInfo& f, std::size_t count) const override {
+    return std::make_unique<Timed>(f, function(f), count);
+  }
+
+ private:
+  class Timed final : public TimedBatch {
+   public:
+    Timed(const FunctionInfo& f, BatchFunction<Real> function, std::size_t count)
+        : function_(function),
+          args_(count * static_cast<std::size_t>(f.arity)),
+          results_(count * static_cast<std::size_t>(f.parts)),
+          threw_(count) {
+      const Arguments<Real> arguments(f, {Stratum::uniform, 1, count, nullptr});
+      for (std::size_t i = 0; i < count; ++i) arguments.make(i, &args_[i * static_cast<std::size_t>(f.arity)]);
+    }
+    void run(std::size_t count) override { function_(args_.data(), results_.data(), threw_.data(), count); }
+
+   private:
+    BatchFunction<Real> function_;
+    std::vector<Real> args_;
+    std::vector<Real> results_;
+    std::vector<std::uint8_t> threw_;
+  };
+
+  [[nodiscard]] BatchFunction<Real> function(const FunctionInfo& f) const {
+    return functions_[static_cast<std::size_t>(f.id)];
+  }
+
+  [[nodiscard]] static std::vector<MpfrValue> exact_arguments(const FunctionInfo& f, const Real* args) {
+    std::vector<MpfrValue> values;
+    for (int j = 0; j < f.arity; ++j) {
+      values.emplace_back(std::numeric_limits<Real>::digits);
+      to_mpfr(values.back().get(), args[j]);
+    }
+    return values;
+  }
+
+  static void update_condition(const FunctionInfo& f, const Real* args, int part, const Judgement& judgement,
+                               Summary& summary, std::atomic<double>& hint) {
+    const double error = judgement.error.value;
+    if (judgement.outcome != Outcome::finite || error <= 0.5 || error < hint.load(std::memory_order_relaxed)) return;
+    const auto values = exact_arguments(f, args);
+    const double condition = condition_number(f, values, part, std::numeric_limits<Real>::digits);
+    // Where the condition number is not defined the error stands as it is; inf/inf says nothing and is left out.
+    double ratio = condition > 1 ? error / condition : error;
+    if (ratio != ratio) ratio = 0;
+    summary.max_error_over_condition = std::max(summary.max_error_over_condition, ratio);
+    double seen = hint.load(std::memory_order_relaxed);
+    while (ratio > seen && !hint.compare_exchange_weak(seen, ratio, std::memory_order_relaxed)) {
+    }
+  }
+
+  void compare_oracles(const FunctionInfo& f, const Real* args, std::uint64_t k, std::vector<Summary>& summaries) const {
+    std::vector<Reference> wide;
+    for (int j = 0; j < f.arity; ++j) wide.push_back(widen<Reference>(args[j]));
+    std::vector<Reference> family(summaries.size());
+    std::uint8_t threw = 0;
+    family_[static_cast<std::size_t>(f.id)](wide.data(), family.data(), &threw, 1);
+    const auto values = exact_arguments(f, args);
+    std::vector<MpfrValue> exact;
+    for (std::size_t j = 0; j < summaries.size(); ++j) exact.emplace_back(descriptor_.reference_bits);
+    exact_value(f, values, exact);
+    MpfrValue other(descriptor_.reference_bits);
+    for (std::size_t j = 0; j < summaries.size(); ++j) {
+      OracleComparison& comparison = summaries[j].oracle;
+      ++comparison.compared;
+      to_mpfr(other.get(), family[j]);
+      const bool finite = mpfr_number_p(other.get()) != 0 && mpfr_number_p(exact[j].get()) != 0;
+      double difference = 0;
+      if (threw != 0) {
+        difference = std::numeric_limits<double>::infinity();
+      } else if (finite) {
+        difference = ulp_error(other, exact[j], descriptor_.format).value;
+      } else {
+        // Beyond Real's range both mean the same: compare what Real would make of them.
+        round_to_format(other, descriptor_.format);
+        round_to_format(exact[j], descriptor_.format);
+        const bool same = (mpfr_nan_p(other.get()) && mpfr_nan_p(exact[j].get())) ||
+                          (mpfr_inf_p(other.get()) && mpfr_inf_p(exact[j].get()) &&
+                           mpfr_sgn(other.get()) == mpfr_sgn(exact[j].get()));
+        difference = same ? 0 : std::numeric_limits<double>::infinity();
+      }
+      comparison.difference.add(difference, k);
+      if (difference > oracle_tolerance_ulp) ++comparison.disagreed;
+    }
+  }
+
+  [[nodiscard]] Point describe(const FunctionInfo& f, const std::vector<Real>& args) const {
+    const auto parts = static_cast<std::size_t>(f.parts);
+    std::vector<Real> results(parts);
+    std::uint8_t threw = 0;
+    function(f)(args.data(), results.data(), &threw, 1);
+    std::vector<Judgement> judgements(parts);
+    judging_.judge({f, args, results, {&threw, 1}}, judgements);
+    const auto values = exact_arguments(f, args.data());
+    std::vector<MpfrValue> exact;
+    for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(descriptor_.reference_bits);
+    exact_value(f, values, exact);
+    Point p;
+    for (const auto& x : args) {
+      p.args_hex.push_back(to_hexfloat(x));
+      p.args_decimal.push_back(to_decimal(x));
+    }
+    const int digits = std::max(30, descriptor_.decimal_places + 5);
+    for (std::size_t j = 0; j < parts; ++j) {
+      const bool none = threw != 0;
+      p.parts.push_back({none ? "exception" : to_hexfloat(results[j]), none ? "exception" : to_decimal(results[j]),
+                         to_decimal(exact[j].get(), digits), judgements[j],
+                         condition_number(f, values, static_cast<int>(j), descriptor_.format.precision)});
+    }
+    return p;
+  }
+
+  RealDescriptor descriptor_;
+  FunctionTable<Real> functions_;
+  const FunctionTable<Reference>& family_;
+  FullJudging<Real> judging_;
+};
+
+}  // namespace ulpgate

@@ -1,0 +1,47 @@
+// RowRecord: the finished figures of one part of one row, as they stand in math.jsonl and as the gate reads them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/core/plan.hpp"
+#include "harness/core/summary.hpp"
+
+namespace ulpgate {
+
+// Texts of the points that a summary names by index.
+struct RowPoints {
+  std::vector<std::string> argmax;
+  std::string got;
+  std::string exact;
+  std::map<Outcome, std::vector<std::string>> first_mismatch;
+  std::vector<std::string> oracle_argmax;
+};
+
+struct RowRecord {
+  std::string function;
+  std::string part;
+  std::string type;
+  std::string function_class;
+  std::string stratum;
+  std::uint64_t planned = 0;
+  std::uint64_t seed = 0;
+  std::string reference;
+  long reference_bits = 0;
+  std::string plan;
+  Summary summary;
+  RowPoints points;
+
+  // Sort key of the records file.
+  [[nodiscard]] auto key() const { return std::tie(function, part, type, stratum); }
+};
+
+// One record per part; looks the points up that the summaries name.
+[[nodiscard]] std::vector<RowRecord> finish_row(const Plan& plan, const PlanRow& row,
+                                                const std::vector<Summary>& summaries);
+
+// Adds `other`, a record of the same row from another shard.
+void merge_record(RowRecord& into, const RowRecord& other);
+
+}  // namespace ulpgate

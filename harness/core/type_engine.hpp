@@ -1,0 +1,74 @@
+// TypeEngine: everything the harness does with one Real type, behind one narrow interface; an instance per type built.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/core/argument_lists.hpp"
+#include "harness/core/sampling.hpp"
+#include "harness/core/summary.hpp"
+#include "reference/descriptor.hpp"
+#include "reference/function_info.hpp"
+
+namespace ulpgate {
+
+// Everything known about one result at one point.
+struct PointPart {
+  std::string got_hex;
+  std::string got_decimal;
+  std::string exact_decimal;  // 30 significant digits, or more where the type has more
+  Judgement judgement;
+  double condition = 0;
+};
+struct Point {
+  std::vector<std::string> args_hex;
+  std::vector<std::string> args_decimal;
+  std::vector<PointPart> parts;
+};
+
+// Shared by the units of one row: the largest error-over-condition found so far, which lets a unit skip condition
+// numbers that cannot raise it.  It changes how much is computed, never the result.
+struct RowHint {
+  std::vector<std::atomic<double>> error_over_condition;
+  explicit RowHint(int parts) : error_over_condition(static_cast<std::size_t>(parts)) {}
+};
+
+// A prepared batch of arguments of one function, evaluated again and again by a benchmark.
+class TimedBatch {
+ public:
+  TimedBatch() = default;
+  TimedBatch(const TimedBatch&) = delete;
+  TimedBatch& operator=(const TimedBatch&) = delete;
+  virtual ~TimedBatch() = default;
+  // Evaluates the first `count` points.
+  virtual void run(std::size_t count) = 0;
+};
+
+class TypeEngine {
+ public:
+  TypeEngine() = default;
+  TypeEngine(const TypeEngine&) = delete;
+  TypeEngine& operator=(const TypeEngine&) = delete;
+  virtual ~TypeEngine() = default;
+
+  [[nodiscard]] virtual const RealDescriptor& descriptor() const = 0;
+
+  // Judges points first..last-1 of a row; one summary per part.
+  [[nodiscard]] virtual std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
+                                                      std::uint64_t first, std::uint64_t last, RowHint& hint) const = 0;
+
+  // The point with index k of a row, and the point at arguments given as exact values of the type.
+  [[nodiscard]] virtual Point point(const FunctionInfo& f, const StratumSource& source, std::uint64_t k) const = 0;
+  [[nodiscard]] virtual Point point(const FunctionInfo& f, const std::vector<MpfrValue>& args) const = 0;
+
+  [[nodiscard]] virtual std::unique_ptr<TimedBatch> timed_batch(const FunctionInfo& f, std::size_t count) const = 0;
+};
+
+// The engines of the types built in, in the order of the type list.
+[[nodiscard]] const std::vector<std::unique_ptr<TypeEngine>>& all_engines();
+// nullptr where no such type was built.
+[[nodiscard]] const TypeEngine* find_engine(std::string_view token);
+
+}  // namespace ulpgate

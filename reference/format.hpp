@@ -1,0 +1,30 @@
+// FloatFormat: precision and exponent range of a binary floating-point type, known at run time.
+#pragma once
+
+#include <limits>
+
+#include "reference/real_types.hpp"
+
+namespace ulpgate {
+
+// Values are m * 2^e with 1 <= m < 2 and exponent_min <= e <= exponent_max; `precision` counts the significand's
+// bits with the leading one.  With subnormals the spacing below 2^exponent_min stays that of exponent_min.
+struct FloatFormat {
+  long precision;
+  long exponent_min;
+  long exponent_max;
+  bool subnormals;
+
+  // Exponent of the smallest positive value.
+  [[nodiscard]] long exponent_least() const { return subnormals ? exponent_min - (precision - 1) : exponent_min; }
+  friend bool operator==(const FloatFormat&, const FloatFormat&) = default;
+};
+
+template <RealType Real>
+[[nodiscard]] constexpr FloatFormat float_format() {
+  using L = std::numeric_limits<Real>;
+  return {L::digits, static_cast<long>(L::min_exponent) - 1, static_cast<long>(L::max_exponent) - 1,
+          L::has_denorm == std::denorm_present};
+}
+
+}  // namespace ulpgate

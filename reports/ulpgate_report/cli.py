@@ -1,0 +1,62 @@
+"""The command line of the reports: arguments, messages and exit codes."""
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from ulpgate_report import build, combine, records, table_text, tables
+from ulpgate_report.errors import OutputFailure, ReportError
+
+EXIT_OK = 0
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="report",
+        description="Tables, figures and a page from the records that `ulpgate math --out DIR` wrote.",
+        epilog="exit codes: 0 ok, 2 bad usage or invalid input, 3 nothing measured, 4 I/O failure",
+    )
+    parser.add_argument("directory", metavar="DIR", type=Path, help="the records")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--out", metavar="OUT", type=Path, help="write the report there")
+    what.add_argument(
+        "--print",
+        dest="to_terminal",
+        action="store_true",
+        help="print the table of maximum ULP errors",
+    )
+    return parser
+
+
+def _print_table(combined):
+    try:
+        sys.stdout.write(table_text.render(tables.ulp_matrix(combined)))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader, `head` say, has seen enough. Python would flush once more at exit and complain.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        # What stays in the buffer would fail a second time when the interpreter ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise OutputFailure(f"cannot print: {error.strerror}") from error
+
+
+def main(argv):
+    """Run one report; returns the exit code."""
+    arguments = _parser().parse_args(argv)
+    try:
+        run = records.load(arguments.directory)
+        combined = combine.combine_run(run)
+        if not run.context["complete"]:
+            print(
+                "report: the run is incomplete; missing samples are not judged",
+                file=sys.stderr,
+            )
+        if arguments.to_terminal:
+            _print_table(combined)
+        else:
+            build.write_report(combined, arguments.out)
+    except ReportError as error:
+        print(f"report: {error}", file=sys.stderr)
+        return error.exit_code
+    return EXIT_OK

@@ -1,0 +1,92 @@
+"""The look that all figures share, and their bytes: the same input gives the same file."""
+import io
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  (the backend has to be chosen first)
+
+SUFFIXES = ("pdf", "svg", "png")
+PNG_DOTS_PER_INCH = 200
+# Okabe and Ito's colours, told apart by colour-blind readers; yellow is left out, too pale on white.
+_COLOURS = (
+    "#0072B2",
+    "#D55E00",
+    "#009E73",
+    "#CC79A7",
+    "#000000",
+    "#E69F00",
+    "#56B4E9",
+)
+_MARKERS = ("o", "s", "^", "D", "v", "X", "P", "<", ">", "p", "*")
+MISMATCH_COLOUR = "#D55E00"
+_PARAMETERS = {
+    "font.family": "DejaVu Sans",
+    "font.size": 8,
+    "axes.labelsize": 9,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
+    "lines.linewidth": 1.0,
+    # TrueType: publishers refuse Type 3 fonts.
+    "pdf.fonttype": 42,
+    "svg.fonttype": "path",
+    "savefig.facecolor": "white",
+}
+# No dates and no versions in the files.
+_METADATA = {
+    "pdf": {"CreationDate": None, "Creator": "ulpgate", "Producer": "ulpgate"},
+    "svg": {"Date": None, "Creator": "ulpgate"},
+    "png": {"Software": "ulpgate"},
+}
+
+pyplot.rcdefaults()
+matplotlib.rcParams.update(_PARAMETERS)
+
+
+def colour(index):
+    """Colour of the type at `index`."""
+    return _COLOURS[index % len(_COLOURS)]
+
+
+def marker(index):
+    """Marker of the type at `index`; the colours repeat sooner than the markers."""
+    return _MARKERS[index % len(_MARKERS)]
+
+
+def render(figure, name):
+    """The bytes of the figure by suffix; the figure is closed."""
+    # The salt makes the ids inside an SVG fixed, and different from those of another figure on the same page.
+    matplotlib.rcParams["svg.hashsalt"] = name
+    files = {}
+    for suffix in SUFFIXES:
+        buffer = io.BytesIO()
+        figure.savefig(
+            buffer,
+            format=suffix,
+            dpi=PNG_DOTS_PER_INCH,
+            bbox_inches="tight",
+            pad_inches=0.03,
+            metadata=_METADATA[suffix],
+        )
+        files[suffix] = buffer.getvalue()
+    pyplot.close(figure)
+    return files
+
+
+def power_of_ten(exponent):
+    """A label such as 10^-16 for an axis whose values are decimal logarithms."""
+    return rf"$10^{{{exponent}}}$"
+
+
+def log10_tick_step(span_decades, most=8):
+    """The smallest pleasant step that gives at most `most` ticks on `span_decades`."""
+    for step in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000):
+        if span_decades / step <= most:
+            return step
+    return max(1, math.ceil(span_decades / most))

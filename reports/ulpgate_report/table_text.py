@@ -1,0 +1,32 @@
+"""Writes a table as aligned plain text for a terminal; `!n` marks n mismatches."""
+import textwrap
+
+from ulpgate_report import cell_text
+
+ARGUMENT_DIGITS = 10
+NARROWEST_CAPTION = 72
+
+
+def _text(cell, kind):
+    _, mismatches = cell_text.value_and_mark(cell)
+    shown = cell_text.short(cell, kind, ARGUMENT_DIGITS)
+    return f"{shown} !{mismatches}" if mismatches else shown
+
+
+def render(table):
+    """The table, its caption below."""
+    lines = [[column.title for column in table.columns]]
+    for row in table.rows:
+        lines.append([_text(c, column.kind) for c, column in zip(row, table.columns)])
+    widths = [max(len(line[i]) for line in lines) for i in range(len(table.columns))]
+    texts = []
+    for line in lines:
+        parts = []
+        for text, width, column in zip(line, widths, table.columns):
+            numeric = column.kind in cell_text.NUMERIC_KINDS
+            parts.append(text.rjust(width) if numeric else text.ljust(width))
+        texts.append("  ".join(parts).rstrip())
+    total = sum(widths) + 2 * (len(widths) - 1)
+    texts.insert(1, "-" * total)
+    caption = textwrap.wrap(table.caption, max(total, NARROWEST_CAPTION))
+    return "\n".join([*texts, "", *caption, ""])

@@ -1,0 +1,65 @@
+// Sorting and filtering of the tables.
+"use strict";
+(function () {
+  const tables = Array.from(document.querySelectorAll("table.data"));
+
+  function keyOf(row, column) {
+    const cell = row.cells[column];
+    const key = cell.dataset.k;
+    if (key === undefined) return cell.textContent;
+    // An empty key is a value that does not exist; it stays last in both directions.
+    return key === "" ? null : Number(key);
+  }
+
+  function compare(a, b) {
+    if (typeof a === "number" && typeof b === "number") return a < b ? -1 : a > b ? 1 : 0;
+    return String(a).localeCompare(String(b), "en", { numeric: true });
+  }
+
+  function sortBy(table, column) {
+    const heads = Array.from(table.tHead.rows[0].cells);
+    const descending = heads[column].getAttribute("aria-sort") === "ascending";
+    heads.forEach((head) => head.removeAttribute("aria-sort"));
+    heads[column].setAttribute("aria-sort", descending ? "descending" : "ascending");
+    const sign = descending ? -1 : 1;
+    const rows = Array.from(table.tBodies[0].rows, (row) => ({ row, key: keyOf(row, column) }));
+    rows.sort((a, b) => {
+      if (a.key === null || b.key === null) return (a.key === null) - (b.key === null);
+      return sign * compare(a.key, b.key);
+    });
+    table.tBodies[0].append(...rows.map((entry) => entry.row));
+  }
+
+  tables.forEach((table) => {
+    Array.from(table.tHead.rows[0].cells).forEach((head, column) => {
+      head.querySelector("button").addEventListener("click", () => sortBy(table, column));
+    });
+  });
+
+  const lines = tables.flatMap((table) =>
+    Array.from(table.tBodies[0].rows, (row) => ({
+      row,
+      // A function's name is looked for as a whole word first: "sin" must not be drowned by "asinh".
+      text: " " + Array.from(row.cells, (cell) => cell.textContent.toLowerCase()).join(" ") + " ",
+    }))
+  );
+
+  function filter(text) {
+    const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+    const whole = words.filter((word) => lines.some((line) => line.text.includes(" " + word + " ")));
+    let shown = 0;
+    lines.forEach((line) => {
+      const wanted = words.every((word) => line.text.includes(whole.includes(word) ? " " + word + " " : word));
+      line.row.hidden = !wanted;
+      if (wanted) shown += 1;
+    });
+    document.getElementById("count").textContent = words.length ? shown + " of " + lines.length + " rows" : "";
+  }
+
+  const box = document.getElementById("filter");
+  let waiting = 0;
+  box.addEventListener("input", () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(() => filter(box.value), 120);
+  });
+})();
