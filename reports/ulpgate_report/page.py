@@ -142,6 +142,8 @@ def render(combined, drawn):
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
+    # Jinja would sort the keys; the functions stay in display order.
+    environment.policies["json.dumps_kwargs"] = {}
     figures = [
         {
             "title": title,

@@ -116,7 +116,7 @@ def test_good_run_loads(run_directory):
         ),
         ("timing.jsonl", 2, with_fields(ns_per_eval=0), "timing.jsonl:2", "no time"),
         ("timing.jsonl", 2, lambda s: "{", "timing.jsonl:2", "truncated"),
-        ("context.json", 1, lambda s: s[:-9], "context.json:1", "truncated"),
+        ("context.json", 1, lambda s: s[:-9], "context.json:2", "ends too soon"),
         ("context.json", 1, without("plan"), "context.json", "field missing"),
     ],
 )

@@ -4,7 +4,7 @@
   const data = JSON.parse(document.getElementById("distributions").textContent);
   const choice = document.getElementById("row");
   const plot = document.getElementById("plot");
-  const WIDTH = 900, HEIGHT = 400, LEFT = 70, RIGHT = 20, TOP = 40, BOTTOM = 50;
+  const WIDTH = 900, HEIGHT = 400, LEFT = 70, RIGHT = 20, TOP = 48, BOTTOM = 50;
   const LOWEST = -20, HIGHEST = 64, PER_OCTAVE = 4;
   const SHAPES = [
     "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", "M-4-4h8v8h-8z", "M0-5l5 9h-10z", "M0-5l5 5l-5 5l-5-5z",
@@ -76,13 +76,18 @@
       if (curve.exact) mark(LEFT, y(curve.exact));
     });
 
-    let offset = LEFT;
+    let offset = LEFT, level = 14;
     data.types.forEach((type, index) => {
+      const width = 44 + 8 * type.token.length;
+      if (offset + width > WIDTH) {
+        offset = LEFT;
+        level += 18;
+      }
       const shape = SHAPES[index % SHAPES.length];
-      svg.append(element("path", { d: `M${offset} 18h22`, stroke: type.colour, "stroke-width": "1.6" }));
-      svg.append(element("path", { d: shape, transform: `translate(${offset + 11} 18)`, fill: type.colour, stroke: type.colour }));
-      svg.append(element("text", { x: offset + 28, y: 22 }, type.token));
-      offset += 44 + 8 * type.token.length;
+      svg.append(element("path", { d: `M${offset} ${level}h22`, stroke: type.colour, "stroke-width": "1.6" }));
+      svg.append(element("path", { d: shape, transform: `translate(${offset + 11} ${level})`, fill: type.colour, stroke: type.colour }));
+      svg.append(element("text", { x: offset + 28, y: level + 4 }, type.token));
+      offset += width;
     });
     plot.replaceChildren(svg);
   }
