@@ -23,8 +23,8 @@ struct ComplexOf<Real> {
 };
 }  // namespace detail
 
-// std::complex for native types; Boost.Multiprecision's own complex number for the others, because the standard
-// leaves std::complex of anything else unspecified.
+// std::complex for native types; Boost.Multiprecision's own complex number for the others, because the
+// standard leaves std::complex of anything else unspecified.
 template <unsigned N, RealType Base>
 using ComplexHP = typename detail::ComplexOf<RealHP<N, Base>>::type;
 

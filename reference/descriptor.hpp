@@ -11,9 +11,9 @@ namespace ulpgate {
 struct RealDescriptor {
   std::string token;
   std::string cpp_type;
-  int total_bits;         // 0 where the representation is not a fixed-width interchange format
+  int total_bits;  // 0 where the representation is not a fixed-width interchange format
   int decimal_places;
-  int exponent_bits;      // 0 likewise
+  int exponent_bits;  // 0 likewise
   int significand_bits;
   FloatFormat format;
   int reference_decimal_places;  // of RealHP<4>
@@ -34,9 +34,14 @@ template <RealType Real>
     constexpr bool explicit_leading_bit = L::digits == 64;
     total_bits = 1 + exponent_bits + L::digits - (explicit_leading_bit ? 0 : 1);
   }
-  return {std::move(token),       std::move(cpp_type), total_bits,
-          L::digits10,            exponent_bits,       L::digits,
-          float_format<Real>(),   std::numeric_limits<Reference>::digits10,
+  return {std::move(token),
+          std::move(cpp_type),
+          total_bits,
+          L::digits10,
+          exponent_bits,
+          L::digits,
+          float_format<Real>(),
+          std::numeric_limits<Reference>::digits10,
           std::numeric_limits<Reference>::digits};
 }
 

@@ -1,7 +1,8 @@
 // Eigen types of RealHP<N>, with number traits that are right for every Real.
 //
-// Boost 1.81's <boost/multiprecision/eigen.hpp> returns the smallest positive number as NumTraits<T>::lowest(), which
-// makes an AlignedBox of a multiprecision type wrong; so that header must not be included beside this one.
+// Boost 1.81's <boost/multiprecision/eigen.hpp> returns the smallest positive number as
+// NumTraits<T>::lowest(), which makes an AlignedBox of a multiprecision type wrong; so that header must not
+// be included beside this one.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +13,8 @@
 namespace Eigen {
 
 template <class Real>
-  requires(ulpgate::RealType<Real> && !ulpgate::NativeReal<Real>)
-struct NumTraits<Real> : GenericNumTraits<Real> {
+requires(ulpgate::RealType<Real> && !ulpgate::NativeReal<Real>) struct NumTraits<Real>
+    : GenericNumTraits<Real> {
   using Real_ = Real;
   using NonInteger = Real;
   using Nested = Real;

@@ -66,6 +66,7 @@ inline Float128Real quad_from_mpfr(mpfr_srcptr rounded) {
 
 template <CppBinFloatBacked Real>
 void bin_float_to_mpfr(mpfr_ptr out, const Real& x) {
+  const WideExponentRange wide;  // its exponents reach twice as far as MPFR's default
   const auto& backend = x.backend();
   using Backend = std::remove_cvref_t<decltype(backend)>;
   const bool negative = backend.sign();
@@ -139,6 +140,7 @@ void to_mpfr(mpfr_ptr out, const Real& x) {
 // The Real nearest to x (ties to even, gradual underflow and overflow as in Real's format).
 template <RealType Real>
 [[nodiscard]] Real from_mpfr(mpfr_srcptr x) {
+  const WideExponentRange wide;
   MpfrValue rounded(mpfr_get_prec(x));
   mpfr_set(rounded, x, MPFR_RNDN);
   round_to_format(rounded, float_format<Real>());

@@ -13,23 +13,34 @@ constexpr auto no = ALL;  // fills unused slots
 
 constexpr FunctionInfo table[] = {
 #define REAL1(name, d0, hard, mpfr) {FunctionId::name, #name, real, 1, 1, {d0, no, no, no}, HardFamily::hard},
-#define REAL2(name, d0, d1, hard, mpfr) {FunctionId::name, #name, real, 2, 1, {d0, d1, no, no}, HardFamily::hard},
-#define REAL3(name, d0, d1, d2, hard, mpfr) {FunctionId::name, #name, real, 3, 1, {d0, d1, d2, no}, HardFamily::hard},
-#define OPER2(name, op, d0, d1, hard, mpfr) {FunctionId::name, #name, real, 2, 1, {d0, d1, no, no}, HardFamily::hard},
-#define COMPLEX1(token, callee, mpc) {FunctionId::token, #token, complex, 2, 2, {ALL, ALL, no, no}, HardFamily::none},
-#define COMPLEX2(token, callee, mpc) {FunctionId::token, #token, complex, 4, 2, {ALL, ALL, ALL, ALL}, HardFamily::none},
-#define COMPLEX_REAL(token, callee, mpc) {FunctionId::token, #token, complex, 2, 1, {ALL, ALL, no, no}, HardFamily::none},
+#define REAL2(name, d0, d1, hard, mpfr) \
+  {FunctionId::name, #name, real, 2, 1, {d0, d1, no, no}, HardFamily::hard},
+#define REAL3(name, d0, d1, d2, hard, mpfr) \
+  {FunctionId::name, #name, real, 3, 1, {d0, d1, d2, no}, HardFamily::hard},
+#define OPER2(name, op, d0, d1, hard, mpfr) \
+  {FunctionId::name, #name, real, 2, 1, {d0, d1, no, no}, HardFamily::hard},
+#define COMPLEX1(token, callee, mpc) \
+  {FunctionId::token, #token, complex, 2, 2, {ALL, ALL, no, no}, HardFamily::none},
+#define COMPLEX2(token, callee, mpc) \
+  {FunctionId::token, #token, complex, 4, 2, {ALL, ALL, ALL, ALL}, HardFamily::none},
+#define COMPLEX_REAL(token, callee, mpc) \
+  {FunctionId::token, #token, complex, 2, 1, {ALL, ALL, no, no}, HardFamily::none},
 #define POLAR(token, callee) {FunctionId::token, #token, complex, 2, 2, {GT0, ALL, no, no}, HardFamily::none},
 #define SPECIAL1(token, d0) {FunctionId::token, #token, special, 1, 1, {d0, no, no, no}, HardFamily::none},
-#define SPECIAL2(token, d0, d1, hard) {FunctionId::token, #token, special, 2, 1, {d0, d1, no, no}, HardFamily::hard},
-#define SPECIAL3(token, d0, d1, d2) {FunctionId::token, #token, special, 3, 1, {d0, d1, d2, no}, HardFamily::none},
-#define SPECIAL4_COMPLEX(token, d0, d1, d2, d3) {FunctionId::token, #token, special, 4, 2, {d0, d1, d2, d3}, HardFamily::none},
+#define SPECIAL2(token, d0, d1, hard) \
+  {FunctionId::token, #token, special, 2, 1, {d0, d1, no, no}, HardFamily::hard},
+#define SPECIAL3(token, d0, d1, d2) \
+  {FunctionId::token, #token, special, 3, 1, {d0, d1, d2, no}, HardFamily::none},
+#define SPECIAL4_COMPLEX(token, d0, d1, d2, d3) \
+  {FunctionId::token, #token, special, 4, 2, {d0, d1, d2, d3}, HardFamily::none},
 #include "reference/functions.def"
 };
 
 }  // namespace
 
-std::span<const FunctionInfo> all_functions() { return table; }
+std::span<const FunctionInfo> all_functions() {
+  return table;
+}
 
 std::optional<FunctionInfo> find_function(std::string_view name) {
   const auto* it = std::ranges::find(table, name, &FunctionInfo::name);
@@ -42,7 +53,8 @@ std::string_view name_of(FunctionClass c) {
 }
 
 std::string_view name_of(DomainMap m) {
-  constexpr std::string_view names[] = {"ALL", "PM1", "GTM1", "GT1", "GT0", "NZ", "UINT", "INT", "MODPI", "MOD2PI"};
+  constexpr std::string_view names[] = {"ALL", "PM1",  "GTM1", "GT1",   "GT0",
+                                        "NZ",  "UINT", "INT",  "MODPI", "MOD2PI"};
   return names[static_cast<std::size_t>(m)];
 }
 

@@ -29,8 +29,8 @@ enum class FunctionId : int {
 enum class FunctionClass { real, complex, special };
 
 // How an argument on (-100, 100) is brought into the domain (paper's maps): ALL x; PM1 fmod(|x|, 2) - 1;
-// GTM1 |x| - 1; GT1 |x| + 1; GT0 |x|; NZ x, or 1 where x is 0; UINT |floor x|; INT floor x; MODPI fmod(|x|, pi);
-// MOD2PI fmod(|x|, 2 pi).
+// GTM1 |x| - 1; GT1 |x| + 1; GT0 |x|; NZ x, or 1 where x is 0; UINT |floor x|; INT floor x; MODPI fmod(|x|,
+// pi); MOD2PI fmod(|x|, 2 pi).
 enum class DomainMap { ALL, PM1, GTM1, GT1, GT0, NZ, UINT, INT, MODPI, MOD2PI };
 
 // Families of structured hard arguments.

@@ -47,8 +47,8 @@ class MpcValue {
   mpc_t value_;
 };
 
-// While alive, MPFR on this thread uses its widest exponent range: a reference must not over- or underflow where
-// the type under test does.  The types under test themselves run in MPFR's default range.
+// While alive, MPFR on this thread uses its widest exponent range: a reference must not over- or underflow
+// where the type under test does.  The types under test themselves run in MPFR's default range.
 class WideExponentRange {
  public:
   WideExponentRange() : emin_(mpfr_get_emin()), emax_(mpfr_get_emax()) {

@@ -1,4 +1,5 @@
-// The MPFR oracle: exact values of every function, correctly rounded at any precision, independent of the types.
+// The MPFR oracle: exact values of every function, correctly rounded at any precision, independent of the
+// types.
 #pragma once
 
 #include <span>
@@ -10,9 +11,9 @@ namespace ulpgate {
 
 // out[i] = part i of f(args), args taken exactly; the precision of out[i] is that of the result.
 //
-// Real functions and complex ones are MPFR's and MPC's, correctly rounded (error at most 1/2 ulp of the result's
-// precision); special functions are our series, accepted when two working precisions agree to 16 bits beyond it.
-// Special values follow C99 annex F and G.  Runs in MPFR's widest exponent range.
+// Real functions and complex ones are MPFR's and MPC's, correctly rounded (error at most 1/2 ulp of the
+// result's precision); special functions are our series, accepted when two working precisions agree to 16
+// bits beyond it. Special values follow C99 annex F and G.  Runs in MPFR's widest exponent range.
 void exact_value(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out);
 
 }  // namespace ulpgate

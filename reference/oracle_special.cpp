@@ -11,8 +11,8 @@ namespace {
 
 constexpr auto nearest = MPFR_RNDN;
 
-// Runs compute(working precision, result) at rising precision until two successive results agree to 16 bits beyond
-// the wanted ones.  A result that stays zero up to the last precision is zero.
+// Runs compute(working precision, result) at rising precision until two successive results agree to 16 bits
+// beyond the wanted ones.  A result that stays zero up to the last precision is zero.
 template <class Compute>
 void by_agreement(MpfrValue& out, Compute&& compute) {
   const long wanted = mpfr_get_prec(out);
@@ -40,7 +40,9 @@ void by_agreement(MpfrValue& out, Compute&& compute) {
   mpfr_set(out, previous, nearest);
 }
 
-long integer(const MpfrValue& x) { return mpfr_get_si(x, nearest); }
+long integer(const MpfrValue& x) {
+  return mpfr_get_si(x, nearest);
+}
 
 void laguerre_sum(long n, long m, mpfr_srcptr x, MpfrValue& sum) {
   const long bits = mpfr_get_prec(sum);

@@ -84,28 +84,26 @@ struct RealHPImpl<1, Base> {
   using type = Base;
 };
 template <unsigned N, unsigned D>
-  requires(N > 1)
-struct RealHPImpl<N, MpfrReal<D>> {
+requires(N > 1) struct RealHPImpl<N, MpfrReal<D>> {
   using type = MpfrReal<N * D>;
 };
 template <unsigned N, unsigned D>
-  requires(N > 1)
-struct RealHPImpl<N, CppBinFloatReal<D>> {
+requires(N > 1) struct RealHPImpl<N, CppBinFloatReal<D>> {
   using type = CppBinFloatReal<N * D>;
 };
 
 }  // namespace detail
 
 // The type with at least N times the decimal digits of Base; RealHP<1, Base> is Base itself.  An IEEE base
-// climbs through the wider IEEE formats and then into MPFR; an MPFR or cpp_bin_float base stays in its family.
+// climbs through the wider IEEE formats and then into MPFR; an MPFR or cpp_bin_float base stays in its
+// family.
 template <unsigned N, RealType Base>
-  requires(N >= 1)
-using RealHP = typename detail::RealHPImpl<N, Base>::type;
+requires(N >= 1) using RealHP = typename detail::RealHPImpl<N, Base>::type;
 
 // True where every value of From is a value of To: at least its significand and its exponent range.
 //
-// cpp_bin_float takes its guard bits from the exponent range, so more digits cost the last thousand or so of its 2^31
-// exponents; those are let pass, as no sampled argument comes near them.
+// cpp_bin_float takes its guard bits from the exponent range, so more digits cost the last thousand or so of
+// its 2^31 exponents; those are let pass, as no sampled argument comes near them.
 template <class From, class To>
 inline constexpr bool widens_exactly = [] {
   using F = std::numeric_limits<From>;

@@ -12,7 +12,9 @@ namespace ulpgate {
 void round_to_format(mpfr_ptr x, const FloatFormat& format);
 
 // Exponent of the binade of a regular x: floor(log2 |x|).
-[[nodiscard]] inline long binade(mpfr_srcptr x) { return static_cast<long>(mpfr_get_exp(x)) - 1; }
+[[nodiscard]] inline long binade(mpfr_srcptr x) {
+  return static_cast<long>(mpfr_get_exp(x)) - 1;
+}
 
 // Moves x, a value of the format, `steps` representable values up (or down if negative); stops at infinities.
 void step_in_format(mpfr_ptr x, long steps, const FloatFormat& format);

@@ -9,12 +9,12 @@
 
 namespace ulpgate {
 
-// Parses decimal ("-1.5e-3"), hexfloat ("0x1.8p+1"), "inf" and "nan" (any sign, any case) into out, rounded once
-// to the format.  Returns false, out unspecified, if any character is left over or there is no number.
+// Parses decimal ("-1.5e-3"), hexfloat ("0x1.8p+1"), "inf" and "nan" (any sign, any case) into out, rounded
+// once to the format.  Returns false, out unspecified, if any character is left over or there is no number.
 [[nodiscard]] bool parse_into(mpfr_ptr out, std::string_view text, const FloatFormat& format);
 
-// "0x1.91eb851eb851fp+1", "-0x0p+0", "inf", "-inf", "nan"; exact, canonical: the leading digit is 1, no trailing
-// zeros.  Subnormals are normalised as well, so one number has one text in every format.
+// "0x1.91eb851eb851fp+1", "-0x0p+0", "inf", "-inf", "nan"; exact, canonical: the leading digit is 1, no
+// trailing zeros.  Subnormals are normalised as well, so one number has one text in every format.
 [[nodiscard]] std::string to_hexfloat(mpfr_srcptr x);
 
 // Scientific decimal text with `digits` significant digits, rounded to nearest.

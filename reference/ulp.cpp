@@ -46,7 +46,9 @@ mpfr_srcptr threshold(mpfr_srcptr x, const FloatFormat& f) {
   return value;
 }
 
-Judgement mismatch(Outcome outcome) { return {outcome, {}, 0, false}; }
+Judgement mismatch(Outcome outcome) {
+  return {outcome, {}, 0, false};
+}
 
 Judgement judge_got_zero(mpfr_srcptr got, mpfr_srcptr exact, mpfr_srcptr rounded, const FloatFormat& f) {
   const bool sign_differs = mpfr_signbit(got) != mpfr_signbit(exact);

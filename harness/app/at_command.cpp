@@ -60,7 +60,8 @@ void print_text(const FunctionInfo& f, const TypeEngine& engine, const Point& po
     fmt::print("  {:<19} {}\n", "exact value", p.exact_decimal);
     fmt::print("  {:<19} {}\n", "ULP error", finite ? shown(p.judgement.error.value, 6) : "-");
     fmt::print("  {:<19} {}\n", "float_distance", finite ? shown(p.judgement.distance, 0) : "-");
-    fmt::print("  {:<19} {}\n", "condition number", std::isfinite(p.condition) ? fmt::format("{:.6g}", p.condition) : shown(p.condition, 0));
+    fmt::print("  {:<19} {}\n", "condition number",
+               std::isfinite(p.condition) ? fmt::format("{:.6g}", p.condition) : shown(p.condition, 0));
     fmt::print("  {:<19} {}\n", "outcome", name_of(p.judgement.outcome));
   }
 }
@@ -81,16 +82,17 @@ ExitCode run_at(const std::vector<std::string>& words) {
   const FunctionInfo& f = function_or_fail(plain[0]);
   const TypeEngine& engine = type_or_fail(plain[1]);
   if (plain.size() != static_cast<std::size_t>(f.arity) + 2) {
-    throw Failure(ExitCode::bad_input, fmt::format("{} takes {} argument{}{}, found {}", f.name, f.arity,
-                                                   f.arity == 1 ? "" : "s",
-                                                   f.function_class == FunctionClass::complex
-                                                       ? " (real and imaginary parts one after the other)"
-                                                       : "",
-                                                   plain.size() - 2));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{} takes {} argument{}{}, found {}", f.name, f.arity, f.arity == 1 ? "" : "s",
+                              f.function_class == FunctionClass::complex
+                                  ? " (real and imaginary parts one after the other)"
+                                  : "",
+                              plain.size() - 2));
   }
   std::vector<MpfrValue> args;
   for (std::size_t i = 2; i < plain.size(); ++i) {
-    args.push_back(parse_argument(f, i - 2, engine.descriptor(), plain[i], fmt::format("argument {}", i - 1)));
+    args.push_back(
+        parse_argument(f, i - 2, engine.descriptor(), plain[i], fmt::format("argument {}", i - 1)));
   }
   const Point point = engine.point(f, args);
   if (json) {
@@ -104,10 +106,14 @@ ExitCode run_at(const std::vector<std::string>& words) {
 }  // namespace
 
 void add_at_command(CLI::App& app, Action& action) {
-  auto* at = app.add_subcommand("at", "Everything known about one point: value, exact value, ULP error, condition");
-  at->footer("ulpgate at FUNCTION TYPE X... [--json]\n"
-             "X is decimal, hexfloat (-0x1.5p+2), inf or nan, rounded once to TYPE; a complex argument is two numbers.\n"
-             "--json prints the keys function type args value reference ulp_error float_distance condition outcome.");
+  auto* at =
+      app.add_subcommand("at", "Everything known about one point: value, exact value, ULP error, condition");
+  at->footer(
+      "ulpgate at FUNCTION TYPE X... [--json]\n"
+      "X is decimal, hexfloat (-0x1.5p+2), inf or nan, rounded once to TYPE; a complex argument is two "
+      "numbers.\n"
+      "--json prints the keys function type args value reference ulp_error float_distance condition "
+      "outcome.");
   // Arguments may begin with a minus: the words are taken as they stand rather than as options.
   at->prefix_command();
   at->callback([at, &action] {

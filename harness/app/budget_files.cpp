@@ -30,7 +30,8 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
   for (const auto& [key, node] : row) {
     if (key == "max_ulp") {
       const auto limit = node.value<double>();
-      if (!limit || std::isnan(*limit) || *limit < 0) bad(file, node, fmt::format("[{}] max_ulp must be a number >= 0", name));
+      if (!limit || std::isnan(*limit) || *limit < 0)
+        bad(file, node, fmt::format("[{}] max_ulp must be a number >= 0", name));
       budget.max_ulp = *limit;
       has_limit = true;
     } else if (key == "reason" && node.is_string()) {
@@ -40,18 +41,24 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
         budget.mismatch[std::string(what.str())] = count_of(file, count, what.str());
       }
     } else {
-      bad(file, node, fmt::format("[{}] has no key '{}' of this kind (max_ulp, mismatch, reason)", name, key.str()));
+      bad(file, node,
+          fmt::format("[{}] has no key '{}' of this kind (max_ulp, mismatch, reason)", name, key.str()));
     }
   }
   if (!has_limit) bad(file, row, fmt::format("[{}] lacks max_ulp", name));
   return budget;
 }
 
-std::string number(double x) { return std::isinf(x) ? "inf" : x == std::floor(x) && x < 1e15 ? fmt::format("{:.1f}", x) : fmt::format("{}", x); }
+std::string number(double x) {
+  return std::isinf(x)                    ? "inf"
+         : x == std::floor(x) && x < 1e15 ? fmt::format("{:.1f}", x)
+                                          : fmt::format("{}", x);
+}
 
 std::string file_text(const std::string& token, const TypeBudgets& type) {
   std::string text = fmt::format(
-      "# Budgets of {}: the largest error in ULP and the accepted mismatches of every function, all strata together.\n"
+      "# Budgets of {}: the largest error in ULP and the accepted mismatches of every function, all strata "
+      "together.\n"
       "# Written by `ulpgate gate DIR --budgets ci/budgets --update`; raised only with `--reason`.\n"
       "[plan]\nsamples = {}\nseed = {}\n",
       token, type.samples, type.seed);
@@ -68,7 +75,8 @@ std::string file_text(const std::string& token, const TypeBudgets& type) {
     }
     if (!b.reason.empty()) {
       std::string quoted;
-      for (const char c : b.reason) quoted += c == '"' || c == '\\' ? std::string("\\") + c : c == '\n' ? " " : std::string(1, c);
+      for (const char c : b.reason)
+        quoted += c == '"' || c == '\\' ? std::string("\\") + c : c == '\n' ? " " : std::string(1, c);
       text += fmt::format("reason = \"{}\"\n", quoted);
     }
   }
@@ -90,10 +98,12 @@ Budgets read_budgets(const std::filesystem::path& directory) {
       TypeBudgets& type = budgets[entry.path().stem().string()];
       for (const auto& [key, node] : table) {
         const auto* section = node.as_table();
-        if (section == nullptr || (key != "plan" && key != "budget")) bad(file, node, fmt::format("unknown section '{}'", key.str()));
+        if (section == nullptr || (key != "plan" && key != "budget"))
+          bad(file, node, fmt::format("unknown section '{}'", key.str()));
         for (const auto& [name, value] : *section) {
           if (key == "plan") {
-            if (name != "samples" && name != "seed") bad(file, value, fmt::format("[plan] has no key '{}'", name.str()));
+            if (name != "samples" && name != "seed")
+              bad(file, value, fmt::format("[plan] has no key '{}'", name.str()));
             (name == "samples" ? type.samples : type.seed) = count_of(file, value, name.str());
           } else {
             const auto* row = value.as_table();
@@ -103,7 +113,8 @@ Budgets read_budgets(const std::filesystem::path& directory) {
         }
       }
     } catch (const toml::parse_error& e) {
-      throw Failure(ExitCode::bad_input, fmt::format("{}:{}: {}", file, e.source().begin.line, e.description()));
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}:{}: {}", file, e.source().begin.line, e.description()));
     }
   }
   return budgets;

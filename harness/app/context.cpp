@@ -67,12 +67,13 @@ Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsi
   c["compiler"] = build_facts::compiler;
   c["flags"] = build_facts::flags;
   c["build_type"] = build_facts::build_type;
-  c["libraries"] = {{"glibc", gnu_get_libc_version()},
-                    {"Boost", boost_version()},
-                    {"MPFR", mpfr_get_version()},
-                    {"MPC", mpc_get_version()},
-                    {"GMP", gmp_version},
-                    {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  c["libraries"] = {
+      {"glibc", gnu_get_libc_version()},
+      {"Boost", boost_version()},
+      {"MPFR", mpfr_get_version()},
+      {"MPC", mpc_get_version()},
+      {"GMP", gmp_version},
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
   c["cpu"] = cpu_name();
   c["seed"] = plan.request().seed;
   c["samples"] = plan.request().samples;
@@ -89,13 +90,15 @@ Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsi
 
 void assert_floating_point_environment() {
   if (std::fegetround() != FE_TONEAREST) {
-    throw Failure(ExitCode::environment, "the rounding mode is not to nearest; results would not be those of the type");
+    throw Failure(ExitCode::environment,
+                  "the rounding mode is not to nearest; results would not be those of the type");
   }
   volatile double least_normal = std::numeric_limits<double>::min();
   volatile double subnormal = least_normal / 4;
   volatile double back = subnormal * 4;
   if (subnormal == 0 || back != least_normal) {
-    throw Failure(ExitCode::environment, "subnormal numbers are flushed to zero; results would not be those of the type");
+    throw Failure(ExitCode::environment,
+                  "subnormal numbers are flushed to zero; results would not be those of the type");
   }
 }
 

@@ -6,7 +6,8 @@
 
 namespace ulpgate::app {
 
-[[nodiscard]] Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads, bool complete);
+[[nodiscard]] Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads,
+                                bool complete);
 [[nodiscard]] Json type_rows(const std::vector<std::string>& tokens);
 // Throws a Failure unless rounding is to nearest and subnormals are neither flushed nor taken as zero.
 void assert_floating_point_environment();

@@ -57,6 +57,8 @@ CrashPlace::CrashPlace(std::string_view function, std::string_view type, std::st
   place[at] = '\0';
 }
 
-CrashPlace::~CrashPlace() { place[0] = '\0'; }
+CrashPlace::~CrashPlace() {
+  place[0] = '\0';
+}
 
 }  // namespace ulpgate::app

@@ -1,4 +1,5 @@
-// Crash report: a fatal signal in a function under test names the row that it happened in and ends with exit code 4.
+// Crash report: a fatal signal in a function under test names the row that it happened in and ends with exit
+// code 4.
 #pragma once
 
 #include <string_view>

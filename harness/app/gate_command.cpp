@@ -34,8 +34,12 @@ void print(const std::vector<Finding>& findings, bool json) {
   Json rows = Json::array();
   for (const auto& f : findings) {
     if (json) {
-      rows.push_back({{"kind", name_of(f.kind)}, {"function", f.row}, {"type", f.type}, {"message", f.message},
-                      {"args", f.at}, {"reproduce", reproducer(f)}});
+      rows.push_back({{"kind", name_of(f.kind)},
+                      {"function", f.row},
+                      {"type", f.type},
+                      {"message", f.message},
+                      {"args", f.at},
+                      {"reproduce", reproducer(f)}});
       continue;
     }
     fmt::print("{:<12} {} {}: {}\n", name_of(f.kind), f.row, f.type, f.message);
@@ -47,8 +51,9 @@ void print(const std::vector<Finding>& findings, bool json) {
 ExitCode update(const GateOptions& o, const RecordSet& set) {
   for (const auto& r : set.records) {
     if (r.summary.samples != r.planned) {
-      throw Failure(ExitCode::incomplete, fmt::format("{}: {} {} {} is incomplete: budgets come from whole runs", o.directory,
-                                                      r.function, r.type, r.stratum));
+      throw Failure(ExitCode::incomplete,
+                    fmt::format("{}: {} {} {} is incomplete: budgets come from whole runs", o.directory,
+                                r.function, r.type, r.stratum));
     }
   }
   Budgets present = std::filesystem::is_directory(o.budgets) ? read_budgets(o.budgets) : Budgets{};
@@ -87,8 +92,8 @@ ExitCode run_gate(const GateOptions& o) {
     fmt::print(stderr, "ulpgate: {}: the run is not complete\n", o.directory);
     ++incomplete;
   }
-  fmt::print(stderr, "ulpgate: gate: {} records, {} failed, {} incomplete or without budget\n", set.records.size(), failed,
-             incomplete);
+  fmt::print(stderr, "ulpgate: gate: {} records, {} failed, {} incomplete or without budget\n",
+             set.records.size(), failed, incomplete);
   if (failed > 0) return ExitCode::regression;
   return incomplete > 0 ? ExitCode::incomplete : ExitCode::pass;
 }

@@ -22,10 +22,14 @@ void list_functions(bool json) {
   for (const auto& f : all_functions()) {
     const std::string parts = f.parts == 1 ? "value" : "re,im";
     if (json) {
-      rows.push_back({{"function", f.name}, {"class", name_of(f.function_class)}, {"arity", f.arity}, {"parts", parts},
+      rows.push_back({{"function", f.name},
+                      {"class", name_of(f.function_class)},
+                      {"arity", f.arity},
+                      {"parts", parts},
                       {"domain", domains(f)}});
     } else {
-      fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", f.name, name_of(f.function_class), f.arity, parts, domains(f));
+      fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", f.name, name_of(f.function_class), f.arity, parts,
+                 domains(f));
     }
   }
   if (json) fmt::print("{}\n", rows.dump(2));
@@ -36,13 +40,13 @@ void list_types(bool json) {
   for (const auto& engine : all_engines()) tokens.push_back(engine->descriptor().token);
   if (json) return fmt::print("{}\n", type_rows(tokens).dump(2));
   const auto or_dash = [](int n) { return n == 0 ? std::string("-") : std::to_string(n); };
-  fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", "token", "C++ type", "total bits", "decimal places",
-             "exponent bits", "significand bits", "RealHP<4> bits");
+  fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", "token", "C++ type", "total bits",
+             "decimal places", "exponent bits", "significand bits", "RealHP<4> bits");
   for (const auto& engine : all_engines()) {
     const RealDescriptor& d = engine->descriptor();
     fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", d.token, d.cpp_type,
-               d.total_bits == 0 ? "N" : std::to_string(d.total_bits), d.decimal_places, or_dash(d.exponent_bits),
-               d.significand_bits, d.reference_bits);
+               d.total_bits == 0 ? "N" : std::to_string(d.total_bits), d.decimal_places,
+               or_dash(d.exponent_bits), d.significand_bits, d.reference_bits);
   }
 }
 

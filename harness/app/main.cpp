@@ -15,8 +15,9 @@ int main(int argc, char** argv) {
   CLI::App app("ulpgate measures, explains and gates floating-point error.", "ulpgate");
   app.set_version_flag("--version", fmt::format("ulpgate {}", build_facts::version));
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 pass, 1 accuracy regression, 2 bad usage or input, 3 nothing measured or incomplete,\n"
-             "4 crash, time-out or I/O failure.");
+  app.footer(
+      "Exit codes: 0 pass, 1 accuracy regression, 2 bad usage or input, 3 nothing measured or incomplete,\n"
+      "4 crash, time-out or I/O failure.");
   Action action;
   add_list_command(app, action);
   add_math_command(app, action);

@@ -43,9 +43,10 @@ void guard_output(const std::filesystem::path& out, const Plan& plan, bool overw
     there = "unreadable";
   }
   if (there != plan.hash()) {
-    throw Failure(ExitCode::bad_input, fmt::format("{} holds the records of another plan ({}); choose another --out or "
-                                                   "give --overwrite",
-                                                   out.string(), there));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{} holds the records of another plan ({}); choose another --out or "
+                              "give --overwrite",
+                              out.string(), there));
   }
 }
 
@@ -67,7 +68,8 @@ Plan make_plan(const MathOptions& o) {
     fmt::print(stderr, "ulpgate: note: no directory {}: no worst cases are replayed\n", directory.string());
   }
   Plan plan(std::move(request), worst);
-  if (plan.rows().empty()) throw Failure(ExitCode::incomplete, "the selection holds no samples: nothing to measure");
+  if (plan.rows().empty())
+    throw Failure(ExitCode::incomplete, "the selection holds no samples: nothing to measure");
   return plan;
 }
 
@@ -87,13 +89,14 @@ ExitCode report_oracles(const std::vector<RowRecord>& records) {
     std::string args;
     for (const auto& a : r.points.oracle_argmax) args += " " + a;
     fmt::print(stderr,
-               "ulpgate: the oracles disagree: {} {} {} {}: RealHP<4> and MPFR differ by up to {:.3g} ULP of the type in {} "
+               "ulpgate: the oracles disagree: {} {} {} {}: RealHP<4> and MPFR differ by up to {:.3g} ULP of "
+               "the type in {} "
                "of {} samples, most at{}\n",
-               r.function, r.part, r.type, r.stratum, r.summary.oracle.difference.value, r.summary.oracle.disagreed,
-               r.summary.oracle.compared, args);
+               r.function, r.part, r.type, r.stratum, r.summary.oracle.difference.value,
+               r.summary.oracle.disagreed, r.summary.oracle.compared, args);
   }
-  fmt::print(stderr, "ulpgate: oracles compared on {} results; {} differ by known defects of a RealHP<4>\n", compared,
-             explained);
+  fmt::print(stderr, "ulpgate: oracles compared on {} results; {} differ by known defects of a RealHP<4>\n",
+             compared, explained);
   return code;
 }
 
@@ -115,8 +118,8 @@ ExitCode run_math(const MathOptions& o) {
   if (!result.complete) {
     throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}", out.string()));
   }
-  fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(), (out / "math.jsonl").string(),
-             plan.hash());
+  fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(),
+             (out / "math.jsonl").string(), plan.hash());
   return report_oracles(result.records);
 }
 
@@ -125,20 +128,26 @@ ExitCode run_math(const MathOptions& o) {
 void add_math_command(CLI::App& app, Action& action) {
   auto* math = app.add_subcommand("math", "Evaluate math functions and judge them against the reference");
   auto o = std::make_shared<MathOptions>();
-  math->add_option("--functions", o->functions, "all, real, complex, special or names, comma-separated")->capture_default_str();
+  math->add_option("--functions", o->functions, "all, real, complex, special or names, comma-separated")
+      ->capture_default_str();
   math->add_option("--types", o->types, "all or tokens, comma-separated")->capture_default_str();
   math->add_option("--strata", o->strata, "all or names, comma-separated")->capture_default_str();
-  math->add_option("--samples", o->samples, "samples of uniform and stratified together (halves); binades gets a half more")
+  math->add_option("--samples", o->samples,
+                   "samples of uniform and stratified together (halves); binades gets a half more")
       ->capture_default_str()
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48U));
   math->add_option("--seed", o->seed, "seed of the arguments")->capture_default_str();
-  math->add_option("--threads", o->threads, "threads, 0: one a core")->capture_default_str()->check(CLI::Range(0U, 4096U));
-  math->add_option("--shard", o->shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")->capture_default_str();
+  math->add_option("--threads", o->threads, "threads, 0: one a core")
+      ->capture_default_str()
+      ->check(CLI::Range(0U, 4096U));
+  math->add_option("--shard", o->shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")
+      ->capture_default_str();
   math->add_option("--out", o->out, "directory of the records")->required();
   math->add_option("--reference", o->reference, "full: MPFR at the precision of RealHP<4>")
       ->capture_default_str()
       ->check(CLI::IsMember({"full"}));
-  math->add_option("--worst-cases", o->worst_cases, "directory of worst cases (default ci/worst_cases, if it exists)");
+  math->add_option("--worst-cases", o->worst_cases,
+                   "directory of worst cases (default ci/worst_cases, if it exists)");
   math->add_option("--timing", o->timing, "write timing.jsonl: auto (unless a shard), on, off")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));

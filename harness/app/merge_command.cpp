@@ -30,8 +30,9 @@ ExitCode run_merge(const std::vector<std::string>& directories, const std::strin
       const Shard s = parse_shard(shard);
       if (shard_count == 0) shard_count = s.count;
       if (s.count != shard_count) {
-        throw Failure(ExitCode::bad_input, fmt::format("{}: shard {} does not divide the run as the others do (n = {})",
-                                                       directory, shard, shard_count));
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("{}: shard {} does not divide the run as the others do (n = {})", directory,
+                                  shard, shard_count));
       }
       if (!shards.insert(shard).second) {
         throw Failure(ExitCode::bad_input, fmt::format("{}: shard {} is there twice", directory, shard));
@@ -55,8 +56,9 @@ ExitCode run_merge(const std::vector<std::string>& directories, const std::strin
   write_file(std::filesystem::path(out) / "math.jsonl", records_text(std::move(records)));
   write_file(std::filesystem::path(out) / "context.json", context.dump(2) + "\n");
   if (!complete) {
-    throw Failure(ExitCode::incomplete, fmt::format("merged into {}, but {} of {} shards are there or one was interrupted", out,
-                                                    shards.size(), shard_count));
+    throw Failure(ExitCode::incomplete,
+                  fmt::format("merged into {}, but {} of {} shards are there or one was interrupted", out,
+                              shards.size(), shard_count));
   }
   fmt::print(stderr, "ulpgate: {} shards merged into {}\n", shards.size(), out);
   return ExitCode::pass;

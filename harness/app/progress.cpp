@@ -31,8 +31,8 @@ void Progress::update(double done, double total) {
     const auto left_s = static_cast<long>(elapsed_s * (1 - fraction) / fraction);
     left = fmt::format(", {}:{:02} left", left_s / 60, left_s % 60);
   }
-  fmt::print(stderr, "\r\033[K{} [{}{}] {:.1f} %{}", what_, std::string(filled, '#'), std::string(30 - filled, '.'),
-             100 * fraction, left);
+  fmt::print(stderr, "\r\033[K{} [{}{}] {:.1f} %{}", what_, std::string(filled, '#'),
+             std::string(30 - filled, '.'), 100 * fraction, left);
   std::fflush(stderr);
 }
 

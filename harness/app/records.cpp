@@ -22,8 +22,12 @@ double number_from(const Json& j) {
   return j.get<double>();
 }
 
-std::uint64_t index_from(const Json& j) { return j.is_null() ? no_index : j.get<std::uint64_t>(); }
-Json index_to(std::uint64_t k) { return k == no_index ? Json(nullptr) : Json(k); }
+std::uint64_t index_from(const Json& j) {
+  return j.is_null() ? no_index : j.get<std::uint64_t>();
+}
+Json index_to(std::uint64_t k) {
+  return k == no_index ? Json(nullptr) : Json(k);
+}
 
 }  // namespace
 
@@ -122,7 +126,8 @@ RowRecord from_json_line(const std::string& line, const std::string& place) {
             j.at("mismatch_first").at(name).get<std::vector<std::string>>();
       }
     }
-    if (total != s.samples) throw std::invalid_argument("judged and mismatched samples do not add up to samples");
+    if (total != s.samples)
+      throw std::invalid_argument("judged and mismatched samples do not add up to samples");
     s.max_error_over_condition = number_from(j.at("max_ulp_over_condition"));
     s.oracle.compared = j.at("oracle").at("compared");
     s.oracle.disagreed = j.at("oracle").at("disagreed");
@@ -146,20 +151,21 @@ RecordSet read_records(const std::filesystem::path& directory) {
   const auto context = directory / "context.json";
   const auto records = directory / "math.jsonl";
   if (!std::filesystem::exists(context) && !std::filesystem::exists(records)) {
-    throw Failure(ExitCode::incomplete, fmt::format("{}: nothing measured there: no math.jsonl", directory.string()));
+    throw Failure(ExitCode::incomplete,
+                  fmt::format("{}: nothing measured there: no math.jsonl", directory.string()));
   }
   try {
     set.context = Json::parse(read_file(context));
   } catch (const Json::exception& e) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: not a run's context: {}", context.string(), e.what()));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: not a run's context: {}", context.string(), e.what()));
   }
   std::size_t number = 0;
   for (const auto& line : read_lines(records)) {
     set.records.push_back(from_json_line(line, fmt::format("{}:{}", records.string(), ++number)));
     if (set.records.back().plan != set.context.value("plan", "")) {
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("{}:{}: plan {} is not that of context.json", records.string(), number,
-                                set.records.back().plan));
+      throw Failure(ExitCode::bad_input, fmt::format("{}:{}: plan {} is not that of context.json",
+                                                     records.string(), number, set.records.back().plan));
     }
   }
   return set;

@@ -19,7 +19,8 @@ int run_program(const std::vector<std::string>& words, bool silent) {
   for (const auto& w : words) argv.push_back(const_cast<char*>(w.c_str()));
   argv.push_back(nullptr);
   const pid_t child = ::fork();
-  if (child < 0) throw Failure(ExitCode::environment, fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
+  if (child < 0)
+    throw Failure(ExitCode::environment, fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
   if (child == 0) {
     if (silent && (std::freopen("/dev/null", "w", stderr) == nullptr)) ::_exit(127);
     ::execvp(argv[0], argv.data());
@@ -34,22 +35,27 @@ int run_program(const std::vector<std::string>& words, bool silent) {
 // The first python3 on PATH may be one without matplotlib; Debian's has its packages.
 std::string find_python() {
   const char* chosen = std::getenv("ULPGATE_PYTHON");
-  for (const auto& python : {std::string(chosen != nullptr ? chosen : "python3"), std::string("/usr/bin/python3")}) {
+  for (const auto& python :
+       {std::string(chosen != nullptr ? chosen : "python3"), std::string("/usr/bin/python3")}) {
     if (run_program({python, "-c", "import matplotlib, numpy, jinja2, jsonschema"}, true) == 0) return python;
   }
-  throw Failure(ExitCode::environment,
-                "no python3 with matplotlib, numpy, jinja2 and jsonschema: install Debian's python3-matplotlib "
-                "python3-numpy python3-jinja2 python3-jsonschema, or name one in ULPGATE_PYTHON");
+  throw Failure(
+      ExitCode::environment,
+      "no python3 with matplotlib, numpy, jinja2 and jsonschema: install Debian's python3-matplotlib "
+      "python3-numpy python3-jinja2 python3-jsonschema, or name one in ULPGATE_PYTHON");
 }
 
 // reports/report.py beside the sources: found from the program upwards, or named in ULPGATE_REPORTS.
 std::filesystem::path find_report() {
   if (const char* named = std::getenv("ULPGATE_REPORTS")) return std::filesystem::path(named) / "report.py";
   std::error_code code;
-  for (auto d = std::filesystem::read_symlink("/proc/self/exe", code); d.has_relative_path(); d = d.parent_path()) {
-    if (std::filesystem::exists(d.parent_path() / "reports/report.py")) return d.parent_path() / "reports/report.py";
+  for (auto d = std::filesystem::read_symlink("/proc/self/exe", code); d.has_relative_path();
+       d = d.parent_path()) {
+    if (std::filesystem::exists(d.parent_path() / "reports/report.py"))
+      return d.parent_path() / "reports/report.py";
   }
-  throw Failure(ExitCode::environment, "reports/report.py is not found above the program; name its folder in ULPGATE_REPORTS");
+  throw Failure(ExitCode::environment,
+                "reports/report.py is not found above the program; name its folder in ULPGATE_REPORTS");
 }
 
 ExitCode run_report(const std::string& directory, const std::string& out, bool print) {
@@ -75,7 +81,8 @@ void add_report_command(CLI::App& app, Action& action) {
   report->add_flag("--print", *print, "print the ULP table");
   report->callback([=, &action] {
     action = [=] {
-      if (out->empty() && !*print) throw Failure(ExitCode::bad_input, "report: give --out DIR, --print or both");
+      if (out->empty() && !*print)
+        throw Failure(ExitCode::bad_input, "report: give --out DIR, --print or both");
       return run_report(*directory, *out, *print);
     };
   });

@@ -17,7 +17,9 @@ namespace {
 
 std::atomic<bool> interrupted{false};
 
-void on_interrupt(int) { interrupted.store(true, std::memory_order_relaxed); }
+void on_interrupt(int) {
+  interrupted.store(true, std::memory_order_relaxed);
+}
 
 // Ctrl-C and SIGTERM end the run after the units in hand; what is done is still written.
 class InterruptGuard {
@@ -78,7 +80,8 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads) {
       const auto summaries =
           row.engine->evaluate(row.function, row.source, unit.first, unit.last, *rows[unit.row].hint);
       const std::lock_guard lock(mutex);
-      for (std::size_t part = 0; part < summaries.size(); ++part) rows[unit.row].summaries[part].merge(summaries[part]);
+      for (std::size_t part = 0; part < summaries.size(); ++part)
+        rows[unit.row].summaries[part].merge(summaries[part]);
       done += cost(plan, unit);
       progress.update(done, total);
     }
@@ -92,7 +95,8 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads) {
   result.complete = !interrupted;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].summaries[0].samples == 0) continue;
-    for (auto& record : finish_row(plan, plan.rows()[i], rows[i].summaries)) result.records.push_back(std::move(record));
+    for (auto& record : finish_row(plan, plan.rows()[i], rows[i].summaries))
+      result.records.push_back(std::move(record));
   }
   return result;
 }

@@ -13,7 +13,8 @@ struct RunResult {
   bool complete = true;  // false after an interrupt
 };
 
-// Runs the units of the shard (unit i belongs to shard i mod count).  The result does not depend on `threads`.
+// Runs the units of the shard (unit i belongs to shard i mod count).  The result does not depend on
+// `threads`.
 [[nodiscard]] RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads);
 
 }  // namespace ulpgate::app

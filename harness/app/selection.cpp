@@ -42,7 +42,8 @@ std::vector<std::string> type_tokens() {
 
 // Keeps the items of `all` that `chosen` names, in the order of `all`.
 template <class Item, class NameOf>
-std::vector<Item> in_order(const std::vector<Item>& all, const std::vector<std::string>& chosen, NameOf&& name) {
+std::vector<Item> in_order(const std::vector<Item>& all, const std::vector<std::string>& chosen,
+                           NameOf&& name) {
   std::vector<Item> out;
   for (const auto& item : all) {
     if (std::ranges::find(chosen, name(item)) != chosen.end()) out.push_back(item);
@@ -64,14 +65,14 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 void unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
-  const auto best = std::ranges::min_element(known, {}, [&](const std::string& k) { return edit_distance(name, k); });
+  const auto best =
+      std::ranges::min_element(known, {}, [&](const std::string& k) { return edit_distance(name, k); });
   std::string hint;
   if (best != known.end() && edit_distance(name, *best) <= std::max<std::size_t>(2, name.size() / 3)) {
     hint = fmt::format("; did you mean '{}'?", *best);
   }
-  throw Failure(ExitCode::bad_input,
-                fmt::format("unknown {} '{}'{} (`ulpgate list {}` shows all)", what, name, hint,
-                            what == "stratum" ? "strata" : what + "s"));
+  throw Failure(ExitCode::bad_input, fmt::format("unknown {} '{}'{} (`ulpgate list {}` shows all)", what,
+                                                 name, hint, what == "stratum" ? "strata" : what + "s"));
 }
 
 const FunctionInfo& function_or_fail(const std::string& name) {
@@ -134,8 +135,10 @@ Shard parse_shard(const std::string& text) {
   const auto a = std::from_chars(text.data(), middle, shard.index);
   const auto b = slash == std::string::npos ? std::from_chars_result{end, std::errc::invalid_argument}
                                             : std::from_chars(middle + 1, end, shard.count);
-  if (a.ec != std::errc() || a.ptr != middle || b.ec != std::errc() || b.ptr != end || shard.index >= shard.count) {
-    throw Failure(ExitCode::bad_input, fmt::format("--shard '{}': want i/n with 0 <= i < n, such as 0/3", text));
+  if (a.ec != std::errc() || a.ptr != middle || b.ec != std::errc() || b.ptr != end ||
+      shard.index >= shard.count) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("--shard '{}': want i/n with 0 <= i < n, such as 0/3", text));
   }
   return shard;
 }

@@ -24,7 +24,8 @@ struct Shard {
 [[nodiscard]] Shard parse_shard(const std::string& text);
 
 // Throws the Failure for an unknown name, with the nearest of the known ones.
-[[noreturn]] void unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known);
+[[noreturn]] void unknown_name(const std::string& what, const std::string& name,
+                               const std::vector<std::string>& known);
 [[nodiscard]] const FunctionInfo& function_or_fail(const std::string& name);
 [[nodiscard]] const TypeEngine& type_or_fail(const std::string& token);
 

@@ -25,7 +25,8 @@ TimingRecord measure(const TypeEngine& engine, const FunctionInfo& f) {
   constexpr double enough_s = 5e-4;
   constexpr int repeats = 7;
   const auto batch = engine.timed_batch(f, batch_size);
-  // The warm-up finds how much one repeat must hold: a part of the batch for slow types, many rounds for fast ones.
+  // The warm-up finds how much one repeat must hold: a part of the batch for slow types, many rounds for fast
+  // ones.
   const double first_s = seconds_of(*batch, 32, 1);
   const std::size_t count = first_s > 2e-3 ? 32 : batch_size;
   int rounds = 1;

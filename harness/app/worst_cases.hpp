@@ -1,4 +1,5 @@
-// Worst cases kept as data: ci/worst_cases/<type token>.txt, one "function argument..." a line, # starts a comment.
+// Worst cases kept as data: ci/worst_cases/<type token>.txt, one "function argument..." a line, # starts a
+// comment.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +13,13 @@ struct WorstCaseFile {
   std::string text;  // canonical text of what applies, for the plan's hash
 };
 
-// Reads the files of the given types; a type without a file has no worst cases.  Functions that are not selected are
-// checked and left out.
-[[nodiscard]] WorstCaseFile read_worst_cases(const std::filesystem::path& directory, const PlanRequest& request);
+// Reads the files of the given types; a type without a file has no worst cases.  Functions that are not
+// selected are checked and left out.
+[[nodiscard]] WorstCaseFile read_worst_cases(const std::filesystem::path& directory,
+                                             const PlanRequest& request);
 
-// Parses one argument for argument slot `slot` of f in the type's format; throws a Failure that begins with `place`.
+// Parses one argument for argument slot `slot` of f in the type's format; throws a Failure that begins with
+// `place`.
 [[nodiscard]] MpfrValue parse_argument(const FunctionInfo& f, std::size_t slot, const RealDescriptor& type,
                                        const std::string& text, const std::string& place);
 

@@ -35,15 +35,17 @@ std::uint64_t allowed_count(std::uint64_t budgeted, const RowRecord& r, const Ty
   return static_cast<std::uint64_t>(std::ceil(expected + 5 * std::sqrt(expected) + 5));
 }
 
-void judge_row(const RowRecord& r, const Budget& budget, const TypeBudgets& type, std::vector<Finding>& findings) {
+void judge_row(const RowRecord& r, const Budget& budget, const TypeBudgets& type,
+               std::vector<Finding>& findings) {
   const std::string row = budget_key(r);
   const Summary& s = r.summary;
   // NaN limits cannot be: comparisons are written so that anything unordered fails.
   if (s.judged() > 0 && !(s.max_error.value <= budget.max_ulp)) {
-    findings.push_back({FindingKind::regression, r.type, row,
-                        fmt::format("maximum error {:.6g} ULP, budget {:.6g} ({}: got {}, exact {})", s.max_error.value,
-                                    budget.max_ulp, r.stratum, r.points.got, r.points.exact),
-                        s.max_error.value / std::max(budget.max_ulp, 1e-300), r.points.argmax});
+    findings.push_back(
+        {FindingKind::regression, r.type, row,
+         fmt::format("maximum error {:.6g} ULP, budget {:.6g} ({}: got {}, exact {})", s.max_error.value,
+                     budget.max_ulp, r.stratum, r.points.got, r.points.exact),
+         s.max_error.value / std::max(budget.max_ulp, 1e-300), r.points.argmax});
   }
   for (std::size_t o = 1; o < outcome_count; ++o) {
     if (s.outcomes[o] == 0) continue;
@@ -51,32 +53,40 @@ void judge_row(const RowRecord& r, const Budget& budget, const TypeBudgets& type
     const std::uint64_t allowed = it == budget.mismatch.end() ? 0 : allowed_count(it->second, r, type);
     if (s.outcomes[o] <= allowed) continue;
     findings.push_back({FindingKind::regression, r.type, row,
-                        fmt::format("{} results of class {} in {}, budget {}", s.outcomes[o], outcome_names[o], r.stratum,
-                                    allowed),
+                        fmt::format("{} results of class {} in {}, budget {}", s.outcomes[o],
+                                    outcome_names[o], r.stratum, allowed),
                         HUGE_VAL, r.points.first_mismatch.at(static_cast<Outcome>(o))});
   }
 }
 
 }  // namespace
 
-std::string budget_key(const RowRecord& r) { return r.part == "value" ? r.function : r.function + "." + r.part; }
+std::string budget_key(const RowRecord& r) {
+  return r.part == "value" ? r.function : r.function + "." + r.part;
+}
 
-std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const Budgets& budgets, MissingRecords missing) {
+std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const Budgets& budgets,
+                                   MissingRecords missing) {
   std::vector<Finding> findings;
   std::map<std::pair<std::string, std::string>, double> measured;
   std::set<std::pair<std::string, std::string>> unbudgeted;
   for (const RowRecord& r : records) {
     const std::string row = budget_key(r);
     if (r.summary.samples != r.planned) {
-      findings.push_back({FindingKind::incomplete, r.type, row,
-                          fmt::format("{} of {} samples in {}", r.summary.samples, r.planned, r.stratum), 0, {}});
+      findings.push_back({FindingKind::incomplete,
+                          r.type,
+                          row,
+                          fmt::format("{} of {} samples in {}", r.summary.samples, r.planned, r.stratum),
+                          0,
+                          {}});
     }
     auto& most = measured.try_emplace({r.type, row}, -1).first->second;
     most = std::max(most, r.summary.max_error.value);
     const auto type = budgets.find(r.type);
     if (type == budgets.end() || !type->second.rows.contains(row)) {
       if (unbudgeted.insert({r.type, row}).second) {
-        findings.push_back({FindingKind::missing_budget, r.type, row, "no budget; write one with --update", 0, {}});
+        findings.push_back(
+            {FindingKind::missing_budget, r.type, row, "no budget; write one with --update", 0, {}});
       }
       continue;
     }
@@ -92,9 +102,11 @@ std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const 
         continue;
       }
       if (it->second >= 0 && it->second < 0.5 * budget.max_ulp) {
-        findings.push_back({FindingKind::could_lower, token, row,
-                            fmt::format("measured {:.4g} ULP, budget {:.4g}: lower it with --update", it->second,
-                                        budget.max_ulp),
+        findings.push_back({FindingKind::could_lower,
+                            token,
+                            row,
+                            fmt::format("measured {:.4g} ULP, budget {:.4g}: lower it with --update",
+                                        it->second, budget.max_ulp),
                             0,
                             {}});
       }
@@ -144,7 +156,8 @@ std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured, con
         const auto old = it->second.mismatch.find(key);
         const std::uint64_t before = old == it->second.mismatch.end() ? 0 : old->second;
         // Counts of another plan are not comparable one by one; a new class always is a raise.
-        if (count > before && (same_plan || before == 0)) what += fmt::format(" {} {} -> {}", key, before, count);
+        if (count > before && (same_plan || before == 0))
+          what += fmt::format(" {} {} -> {}", key, before, count);
       }
       if (what.empty()) {
         const std::string kept = it->second.reason;

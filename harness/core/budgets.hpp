@@ -1,4 +1,5 @@
-// Budgets and verdicts: the largest error that the gate accepts for each row, and the judgement of records by them.
+// Budgets and verdicts: the largest error that the gate accepts for each row, and the judgement of records by
+// them.
 #pragma once
 
 #include <map>
@@ -37,20 +38,21 @@ struct Finding {
   std::string type;
   std::string row;
   std::string message;
-  double severity = 0;            // measured / budget; the worst come first
-  std::vector<std::string> at;    // arguments that reproduce it
+  double severity = 0;          // measured / budget; the worst come first
+  std::vector<std::string> at;  // arguments that reproduce it
 };
 
 enum class MissingRecords { fail, ignore };
 
 // Judges complete sets of records; findings are sorted: regressions by falling severity, then the others.
-// Mismatch counts of drawn strata are compared as they are where samples and seed are those of the budget; for
-// another size they are scaled, with five standard deviations of a Poisson count as allowance.
-[[nodiscard]] std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const Budgets& budgets,
-                                                 MissingRecords missing);
+// Mismatch counts of drawn strata are compared as they are where samples and seed are those of the budget;
+// for another size they are scaled, with five standard deviations of a Poisson count as allowance.
+[[nodiscard]] std::vector<Finding> judge_records(const std::vector<RowRecord>& records,
+                                                 const Budgets& budgets, MissingRecords missing);
 
 // The budgets that just hold for these records: maxima rounded up to three significant digits.
-[[nodiscard]] Budgets measured_budgets(const std::vector<RowRecord>& records, std::uint64_t samples, std::uint64_t seed);
+[[nodiscard]] Budgets measured_budgets(const std::vector<RowRecord>& records, std::uint64_t samples,
+                                       std::uint64_t seed);
 
 // A measured row that is worse than the present budget.
 struct Raise {
@@ -58,8 +60,9 @@ struct Raise {
   std::string row;
   std::string what;
 };
-// Merges `measured` into `present`: limits fall and rows appear freely; a limit that would rise is listed, and
-// raised only with a reason.  Types and rows that were not measured stay.
-[[nodiscard]] std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured, const std::string& reason);
+// Merges `measured` into `present`: limits fall and rows appear freely; a limit that would rise is listed,
+// and raised only with a reason.  Types and rows that were not measured stay.
+[[nodiscard]] std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured,
+                                                const std::string& reason);
 
 }  // namespace ulpgate

@@ -14,7 +14,8 @@ namespace ulpgate {
 
 // One in this many samples is also evaluated with the family's RealHP<4>, chosen by its index.
 inline constexpr std::uint64_t oracle_stride = 251;
-// The oracles agree when they differ by less than this, in ULP of Real; both carry some 3 p bits more than Real.
+// The oracles agree when they differ by less than this, in ULP of Real; both carry some 3 p bits more than
+// Real.
 inline constexpr double oracle_tolerance_ulp = 0x1p-16;
 
 template <RealType Real>
@@ -27,8 +28,9 @@ class Engine final : public TypeEngine {
 
   [[nodiscard]] const RealDescriptor& descriptor() const override { return descriptor_; }
 
-  [[nodiscard]] std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source, std::uint64_t first,
-                                              std::uint64_t last, RowHint& hint) const override {
+  [[nodiscard]] std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
+                                              std::uint64_t first, std::uint64_t last,
+                                              RowHint& hint) const override {
     constexpr std::size_t batch_size = 256;
     const auto arity = static_cast<std::size_t>(f.arity);
     const auto parts = static_cast<std::size_t>(f.parts);
@@ -58,7 +60,8 @@ class Engine final : public TypeEngine {
     return summaries;
   }
 
-  [[nodiscard]] Point point(const FunctionInfo& f, const StratumSource& source, std::uint64_t k) const override {
+  [[nodiscard]] Point point(const FunctionInfo& f, const StratumSource& source,
+                            std::uint64_t k) const override {
     std::vector<Real> args(static_cast<std::size_t>(f.arity));
     Arguments<Real>(f, source).make(k, args.data());
     return describe(f, args);
@@ -70,7 +73,8 @@ class Engine final : public TypeEngine {
     return describe(f, args);
   }
 
-  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(const FunctionInfo& f, std::size_t count) const override {
+  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(const FunctionInfo& f,
+                                                        std::size_t count) const override {
     return std::make_unique<Timed>(f, function(f), count);
   }
 
@@ -83,7 +87,8 @@ class Engine final : public TypeEngine {
           results_(count * static_cast<std::size_t>(f.parts)),
           threw_(count) {
       const Arguments<Real> arguments(f, {Stratum::uniform, 1, count, nullptr});
-      for (std::size_t i = 0; i < count; ++i) arguments.make(i, &args_[i * static_cast<std::size_t>(f.arity)]);
+      for (std::size_t i = 0; i < count; ++i)
+        arguments.make(i, &args_[i * static_cast<std::size_t>(f.arity)]);
     }
     void run(std::size_t count) override { function_(args_.data(), results_.data(), threw_.data(), count); }
 
@@ -110,10 +115,12 @@ class Engine final : public TypeEngine {
   static void update_condition(const FunctionInfo& f, const Real* args, int part, const Judgement& judgement,
                                Summary& summary, std::atomic<double>& hint) {
     const double error = judgement.error.value;
-    if (judgement.outcome != Outcome::finite || error <= 0.5 || error < hint.load(std::memory_order_relaxed)) return;
+    if (judgement.outcome != Outcome::finite || error <= 0.5 || error < hint.load(std::memory_order_relaxed))
+      return;
     const auto values = exact_arguments(f, args);
     const double condition = condition_number(f, values, part, std::numeric_limits<Real>::digits);
-    // Where the condition number is not defined the error stands as it is; inf/inf says nothing and is left out.
+    // Where the condition number is not defined the error stands as it is; inf/inf says nothing and is left
+    // out.
     double ratio = condition > 1 ? error / condition : error;
     if (ratio != ratio) ratio = 0;
     summary.max_error_over_condition = std::max(summary.max_error_over_condition, ratio);
@@ -122,7 +129,8 @@ class Engine final : public TypeEngine {
     }
   }
 
-  void compare_oracles(const FunctionInfo& f, const Real* args, std::uint64_t k, std::vector<Summary>& summaries) const {
+  void compare_oracles(const FunctionInfo& f, const Real* args, std::uint64_t k,
+                       std::vector<Summary>& summaries) const {
     std::vector<Reference> wide;
     for (int j = 0; j < f.arity; ++j) wide.push_back(widen<Reference>(args[j]));
     std::vector<Reference> family(summaries.size());
@@ -137,20 +145,23 @@ class Engine final : public TypeEngine {
       OracleComparison& comparison = summaries[j].oracle;
       ++comparison.compared;
       to_mpfr(other.get(), family[j]);
-      const bool finite = mpfr_number_p(other.get()) != 0 && mpfr_number_p(exact[j].get()) != 0;
-      double difference = 0;
-      if (threw != 0) {
-        difference = std::numeric_limits<double>::infinity();
-      } else if (finite) {
-        difference = ulp_error(other, exact[j], descriptor_.format).value;
-      } else {
-        // Beyond Real's range both mean the same: compare what Real would make of them.
+      // Beyond Real's range both mean the same: compare what Real would make of them.
+      const bool in_range =
+          mpfr_zero_p(exact[j].get()) != 0 ||
+          (mpfr_regular_p(exact[j].get()) && binade(exact[j]) <= descriptor_.format.exponent_max &&
+           binade(exact[j]) >= descriptor_.format.exponent_least());
+      if (!in_range) {
         round_to_format(other, descriptor_.format);
         round_to_format(exact[j], descriptor_.format);
-        const bool same = (mpfr_nan_p(other.get()) && mpfr_nan_p(exact[j].get())) ||
-                          (mpfr_inf_p(other.get()) && mpfr_inf_p(exact[j].get()) &&
-                           mpfr_sgn(other.get()) == mpfr_sgn(exact[j].get()));
-        difference = same ? 0 : std::numeric_limits<double>::infinity();
+      }
+      double difference = std::numeric_limits<double>::infinity();
+      if (threw != 0) {
+        // No value at all: the largest difference there is.
+      } else if (mpfr_number_p(other.get()) && mpfr_number_p(exact[j].get())) {
+        difference = ulp_error(other, exact[j], descriptor_.format).value;
+      } else if ((mpfr_nan_p(other.get()) && mpfr_nan_p(exact[j].get())) ||
+                 (mpfr_inf_p(other.get()) && mpfr_equal_p(other.get(), exact[j].get()))) {
+        difference = 0;
       }
       comparison.difference.add(difference, k);
       if (difference > oracle_tolerance_ulp) ++comparison.disagreed;
@@ -176,8 +187,9 @@ class Engine final : public TypeEngine {
     const int digits = std::max(30, descriptor_.decimal_places + 5);
     for (std::size_t j = 0; j < parts; ++j) {
       const bool none = threw != 0;
-      p.parts.push_back({none ? "exception" : to_hexfloat(results[j]), none ? "exception" : to_decimal(results[j]),
-                         to_decimal(exact[j].get(), digits), judgements[j],
+      p.parts.push_back({none ? "exception" : to_hexfloat(results[j]),
+                         none ? "exception" : to_decimal(results[j]), to_decimal(exact[j].get(), digits),
+                         judgements[j],
                          condition_number(f, values, static_cast<int>(j), descriptor_.format.precision)});
     }
     return p;

@@ -1,4 +1,5 @@
-// Judging<Real>: how a batch of results is held against the truth; the full reference, and room for others beside it.
+// Judging<Real>: how a batch of results is held against the truth; the full reference, and room for others
+// beside it.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,8 @@ struct Batch {
   [[nodiscard]] std::size_t count() const { return threw.size(); }
 };
 
-// A strategy of judging; one call per batch, so that a strategy can screen cheaply before it climbs to the full
-// reference.  Every strategy gives the same judgements of every sample that a statistic can depend on.
+// A strategy of judging; one call per batch, so that a strategy can screen cheaply before it climbs to the
+// full reference.  Every strategy gives the same judgements of every sample that a statistic can depend on.
 template <RealType Real>
 class Judging {
  public:

@@ -1,4 +1,5 @@
-// Plan: everything that fixes a run's numbers, its rows and work units, and the hash that stands in every record.
+// Plan: everything that fixes a run's numbers, its rows and work units, and the hash that stands in every
+// record.
 #pragma once
 
 #include <map>
@@ -44,8 +45,8 @@ class Plan {
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] const std::string& hash() const { return hash_; }
 
-  // Points of a drawn stratum: uniform and stratified share --samples in equal halves (uniform gets the odd one),
-  // binades get as many as a half.
+  // Points of a drawn stratum: uniform and stratified share --samples in equal halves (uniform gets the odd
+  // one), binades get as many as a half.
   [[nodiscard]] static std::uint64_t drawn_count(Stratum s, std::uint64_t samples);
 
  private:

@@ -10,7 +10,8 @@
 namespace ulpgate {
 
 // FNV-1a, 64 bits (Fowler, Noll, Vo); names streams and plans.
-[[nodiscard]] constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325ULL) {
+[[nodiscard]] constexpr std::uint64_t fnv1a(std::string_view text,
+                                            std::uint64_t hash = 0xcbf29ce484222325ULL) {
   for (const char c : text) {
     hash ^= static_cast<unsigned char>(c);
     hash *= 0x100000001b3ULL;
@@ -18,8 +19,8 @@ namespace ulpgate {
   return hash;
 }
 
-// One stream per (seed, function, stratum).  Philox4x64-10: Salmon et al., "Parallel random numbers: as easy as
-// 1, 2, 3", SC'11.
+// One stream per (seed, function, stratum).  Philox4x64-10: Salmon et al., "Parallel random numbers: as easy
+// as 1, 2, 3", SC'11.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view function, std::string_view stratum)

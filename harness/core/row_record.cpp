@@ -3,7 +3,8 @@
 
 namespace ulpgate {
 
-std::vector<RowRecord> finish_row(const Plan& plan, const PlanRow& row, const std::vector<Summary>& summaries) {
+std::vector<RowRecord> finish_row(const Plan& plan, const PlanRow& row,
+                                  const std::vector<Summary>& summaries) {
   std::vector<RowRecord> records;
   const auto at = [&](std::uint64_t k) { return row.engine->point(row.function, row.source, k); };
   for (std::size_t part = 0; part < summaries.size(); ++part) {
@@ -29,7 +30,8 @@ std::vector<RowRecord> finish_row(const Plan& plan, const PlanRow& row, const st
     for (std::size_t o = 1; o < outcome_count; ++o) {
       if (s.outcomes[o] > 0) r.points.first_mismatch[static_cast<Outcome>(o)] = at(s.first_index[o]).args_hex;
     }
-    if (s.oracle.difference.index != no_index) r.points.oracle_argmax = at(s.oracle.difference.index).args_hex;
+    if (s.oracle.difference.index != no_index)
+      r.points.oracle_argmax = at(s.oracle.difference.index).args_hex;
     records.push_back(std::move(r));
   }
   return records;
@@ -45,7 +47,8 @@ void merge_record(RowRecord& into, const RowRecord& other) {
   }
   for (std::size_t o = 1; o < outcome_count; ++o) {
     if (into.summary.first_index[o] != before.first_index[o]) {
-      into.points.first_mismatch[static_cast<Outcome>(o)] = other.points.first_mismatch.at(static_cast<Outcome>(o));
+      into.points.first_mismatch[static_cast<Outcome>(o)] =
+          other.points.first_mismatch.at(static_cast<Outcome>(o));
     }
   }
   if (into.summary.oracle.difference.index != before.oracle.difference.index) {

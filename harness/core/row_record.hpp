@@ -1,4 +1,5 @@
-// RowRecord: the finished figures of one part of one row, as they stand in math.jsonl and as the gate reads them.
+// RowRecord: the finished figures of one part of one row, as they stand in math.jsonl and as the gate reads
+// them.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// Arguments<Real>: point k of a stratum of a function, made once, in RealHP<1>, by an exact rule from random words.
+// Arguments<Real>: point k of a stratum of a function, made once, in RealHP<1>, by an exact rule from random
+// words.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +22,13 @@ struct StratumSource {
 
 namespace detail {
 
-// The Real nearest to 200 f - 100, f = 0.words in base 2^64.  The integer 200 F - 100 * 2^(64 n) is exact and rounded
-// once, so the value depends on the words alone, not on a library's distribution.
+// The Real nearest to 200 f - 100, f = 0.words in base 2^64.  The integer 200 F - 100 * 2^(64 n) is exact and
+// rounded once, so the value depends on the words alone, not on a library's distribution.
 template <RealType Real>
 Real on_minus_100_100(std::span<const std::uint64_t> words) {
   if constexpr (NativeReal<Real>) {
-    const __int128 v = static_cast<__int128>(200) * static_cast<__int128>(words[0]) - (static_cast<__int128>(100) << 64U);
+    const __int128 v =
+        static_cast<__int128>(200) * static_cast<__int128>(words[0]) - (static_cast<__int128>(100) << 64U);
     return std::ldexp(static_cast<Real>(v), -64);
   } else {
     mpz_t z;
@@ -57,8 +59,8 @@ inline void into_cell(std::span<std::uint64_t> words, std::uint64_t cell, std::u
   }
 }
 
-// A fixed permutation of [0, n) for every argument: argument 0 walks the cells in order, the others by a stride near
-// the golden section, so that pairs of cells fill the square evenly.
+// A fixed permutation of [0, n) for every argument: argument 0 walks the cells in order, the others by a
+// stride near the golden section, so that pairs of cells fill the square evenly.
 inline std::uint64_t permuted_cell(std::uint64_t k, std::size_t argument, std::uint64_t n) {
   if (argument == 0 || n < 3) return k;
   auto stride = static_cast<std::uint64_t>(0.6180339887498949 * static_cast<double>(n)) + 2 * argument;
@@ -148,24 +150,27 @@ class Arguments {
 
   // A random significand in a binade; argument 0 walks all binades evenly, the others are drawn.
   Real in_binade(std::uint64_t k, std::size_t argument, DomainMap map, const Real* before) const {
-    constexpr std::size_t significand_words = (static_cast<std::size_t>(std::numeric_limits<Real>::digits) + 63) / 64;
+    constexpr std::size_t significand_words =
+        (static_cast<std::size_t>(std::numeric_limits<Real>::digits) + 63) / 64;
     std::uint64_t words[significand_words + 2];
     stream_.fill(k, argument, words);
     const std::uint64_t choice = argument == 0 ? k * 0x9e3779b97f4a7c15ULL : words[significand_words];
     const std::uint64_t extra = words[significand_words + 1];
     bool negative = (extra & 1U) != 0;
-    if (map == DomainMap::GT0 || map == DomainMap::GT1 || map == DomainMap::MODPI || map == DomainMap::MOD2PI) {
+    if (map == DomainMap::GT0 || map == DomainMap::GT1 || map == DomainMap::MODPI ||
+        map == DomainMap::MOD2PI) {
       negative = false;
     }
-    ExponentRange range = sampled_exponents(float_format<Real>());
+    ExponentRange range = sampled_exponents(function_, float_format<Real>());
     if (map == DomainMap::PM1 || (map == DomainMap::GTM1 && negative)) range.greatest = -1;
     if (map == DomainMap::GT1) range.least = 0;
     if (map == DomainMap::MODPI || map == DomainMap::MOD2PI) range.greatest = 2;
-    // Two independent exponents rarely interact: every other point takes arguments of similar size, and pow an
-    // exponent for which the result stays near the range.
+    // Two independent exponents rarely interact: every other point takes arguments of similar size, and pow
+    // an exponent for which the result stays near the range.
     if (argument == 1 && (extra & 2U) != 0) narrow(range, before[0]);
     const auto span = static_cast<std::uint64_t>(range.greatest - range.least + 1);
-    const long exponent = range.least + static_cast<long>((static_cast<unsigned __int128>(choice) * span) >> 64U);
+    const long exponent =
+        range.least + static_cast<long>((static_cast<unsigned __int128>(choice) * span) >> 64U);
 
     constexpr long p = std::numeric_limits<Real>::digits;
     mpz_t z;

@@ -12,8 +12,8 @@ enum class Stratum {
   uniform,     // random on (-100, 100), then the domain map (the paper's first set)
   stratified,  // equidistant cells, one random point in each, then the domain map (the paper's second set)
   binades,     // every exponent of the type that the domain allows, random significands, both signs
-  edges,       // zeros, infinities, NaN, least and greatest numbers, 1, integers, halves, poles and neighbours
-  hard,        // structured: nearest to multiples of pi/2, to zeros, to over- and underflow, powers near 1
+  edges,  // zeros, infinities, NaN, least and greatest numbers, 1, integers, halves, poles and neighbours
+  hard,   // structured: nearest to multiples of pi/2, to zeros, to over- and underflow, powers near 1
 };
 
 struct StratumInfo {
@@ -25,13 +25,16 @@ struct StratumInfo {
 inline constexpr std::array<StratumInfo, 6> all_strata = {{
     {Stratum::worst, "worst", "known worst cases from ci/worst_cases, replayed first"},
     {Stratum::uniform, "uniform", "random on (-100, 100), mapped to the domain once"},
-    {Stratum::stratified, "stratified", "equidistant cells on (-100, 100), one random point each, mapped once"},
+    {Stratum::stratified, "stratified",
+     "equidistant cells on (-100, 100), one random point each, mapped once"},
     {Stratum::binades, "binades", "every exponent that the domain allows, random significands, both signs"},
     {Stratum::edges, "edges", "zeros, infinities, NaN, extremes, 1, integers, halves, poles and neighbours"},
     {Stratum::hard, "hard", "nearest to multiples of pi/2, zeros, over- and underflow; powers near 1"},
 }};
 
-[[nodiscard]] constexpr std::string_view name_of(Stratum s) { return all_strata[static_cast<std::size_t>(s)].name; }
+[[nodiscard]] constexpr std::string_view name_of(Stratum s) {
+  return all_strata[static_cast<std::size_t>(s)].name;
+}
 
 [[nodiscard]] constexpr std::optional<Stratum> find_stratum(std::string_view name) {
   for (const auto& s : all_strata) {

@@ -9,8 +9,8 @@ namespace ulpgate {
 
 namespace {
 // 2^(-3/4), 2^(-2/4), 2^(-1/4), 1: correctly rounded constants, so that buckets do not depend on a libm.
-constexpr std::array<double, 4> quarter_octaves = {0x1.306fe0a31b715p-1, 0x1.6a09e667f3bcdp-1, 0x1.ae89f995ad3adp-1,
-                                                   1.0};
+constexpr std::array<double, 4> quarter_octaves = {0x1.306fe0a31b715p-1, 0x1.6a09e667f3bcdp-1,
+                                                   0x1.ae89f995ad3adp-1, 1.0};
 constexpr double sum_unit = 0x1p-40;
 constexpr double sum_limit = 0x1p60;
 }  // namespace

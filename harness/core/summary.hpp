@@ -15,13 +15,13 @@ inline constexpr std::uint64_t no_index = std::numeric_limits<std::uint64_t>::ma
 // Quarter-octave buckets of the ULP error: bucket i holds errors in (2^((i-1)/4), 2^(i/4)].
 class UlpHistogram {
  public:
-  static constexpr int least = -96;       // everything up to 2^-24
+  static constexpr int least = -96;          // everything up to 2^-24
   static constexpr int greatest = 4 * 1024;  // everything above 2^1023.75, infinity included
 
   void add(Ulp error);
   void merge(const UlpHistogram& other);
-  // Upper edge of the first bucket at which at least `fraction` of the samples are reached; 0 for exact results.
-  // NaN when empty.
+  // Upper edge of the first bucket at which at least `fraction` of the samples are reached; 0 for exact
+  // results. NaN when empty.
   [[nodiscard]] double quantile(double fraction) const;
   [[nodiscard]] static int bucket(Ulp error);
   [[nodiscard]] static double upper_edge(int bucket);
@@ -30,8 +30,8 @@ class UlpHistogram {
   std::map<int, std::uint64_t> counts;
 };
 
-// The sum of errors as an integer over 2^-40 ULP, so that order does not matter.  One error counts at most 2^60 ULP:
-// beyond that a mean says nothing, the maximum and the histogram do.
+// The sum of errors as an integer over 2^-40 ULP, so that order does not matter.  One error counts at most
+// 2^60 ULP: beyond that a mean says nothing, the maximum and the histogram do.
 class UlpSum {
  public:
   void add(Ulp error);
@@ -80,7 +80,8 @@ struct Summary {
   std::array<std::uint64_t, outcome_count> first_index;  // lowest index per outcome
   Maximum max_error;
   double max_distance = -1;
-  // Largest error / max(1, condition number), over results that are off by more than half a ULP; 0 if none is.
+  // Largest error / max(1, condition number), over results that are off by more than half a ULP; 0 if none
+  // is.
   double max_error_over_condition = 0;
   UlpHistogram histogram;
   UlpSum sum;

@@ -1,4 +1,5 @@
-// TypeEngine: everything the harness does with one Real type, behind one narrow interface; an instance per type built.
+// TypeEngine: everything the harness does with one Real type, behind one narrow interface; an instance per
+// type built.
 #pragma once
 
 #include <atomic>
@@ -28,8 +29,8 @@ struct Point {
   std::vector<PointPart> parts;
 };
 
-// Shared by the units of one row: the largest error-over-condition found so far, which lets a unit skip condition
-// numbers that cannot raise it.  It changes how much is computed, never the result.
+// Shared by the units of one row: the largest error-over-condition found so far, which lets a unit skip
+// condition numbers that cannot raise it.  It changes how much is computed, never the result.
 struct RowHint {
   std::vector<std::atomic<double>> error_over_condition;
   explicit RowHint(int parts) : error_over_condition(static_cast<std::size_t>(parts)) {}
@@ -57,13 +58,16 @@ class TypeEngine {
 
   // Judges points first..last-1 of a row; one summary per part.
   [[nodiscard]] virtual std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
-                                                      std::uint64_t first, std::uint64_t last, RowHint& hint) const = 0;
+                                                      std::uint64_t first, std::uint64_t last,
+                                                      RowHint& hint) const = 0;
 
   // The point with index k of a row, and the point at arguments given as exact values of the type.
-  [[nodiscard]] virtual Point point(const FunctionInfo& f, const StratumSource& source, std::uint64_t k) const = 0;
+  [[nodiscard]] virtual Point point(const FunctionInfo& f, const StratumSource& source,
+                                    std::uint64_t k) const = 0;
   [[nodiscard]] virtual Point point(const FunctionInfo& f, const std::vector<MpfrValue>& args) const = 0;
 
-  [[nodiscard]] virtual std::unique_ptr<TimedBatch> timed_batch(const FunctionInfo& f, std::size_t count) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<TimedBatch> timed_batch(const FunctionInfo& f,
+                                                                std::size_t count) const = 0;
 };
 
 // The engines of the types built in, in the order of the type list.

@@ -10,8 +10,8 @@
 
 namespace ulpgate {
 
-// Evaluates `count` points: args holds count * arity values, results count * parts.  threw[i] is set to 1 where
-// point i threw, its results are then unspecified; entries are never cleared.
+// Evaluates `count` points: args holds count * arity values, results count * parts.  threw[i] is set to 1
+// where point i threw, its results are then unspecified; entries are never cleared.
 template <RealType Real>
 using BatchFunction = void (*)(const Real* args, Real* results, std::uint8_t* threw, std::size_t count);
 

@@ -1,11 +1,9 @@
-// Edges and structured hard arguments.
-#include "harness/core/argument_lists.hpp"
-
-#include <algorithm>
+// Structured hard arguments: next to multiples of pi/2, to zeros, to the ends of the range, powers near 1.
 #include <cmath>
 
+#include "harness/core/argument_lists.hpp"
+#include "harness/core/argument_values.hpp"
 #include "reference/oracle.hpp"
-#include "reference/rounding.hpp"
 
 namespace ulpgate {
 
@@ -13,125 +11,8 @@ namespace {
 
 constexpr auto nearest = MPFR_RNDN;
 
-// Collects values of one format.
-class Values {
- public:
-  explicit Values(const FloatFormat& format) : format_(format) {}
-
-  void add(mpfr_srcptr x) {
-    MpfrValue v(format_.precision);
-    MpfrValue exact(mpfr_get_prec(x));
-    mpfr_set(exact, x, nearest);
-    round_to_format(exact, format_);
-    mpfr_set(v, exact, nearest);
-    values.push_back(std::move(v));
-  }
-  void add_scaled(long m, long exponent) {
-    MpfrValue v(64);
-    mpfr_set_si_2exp(v, m, exponent, nearest);
-    add(v);
-  }
-  // x and its neighbours up to `reach` steps away, with both signs.
-  void add_around(mpfr_srcptr x, int reach) {
-    for (int s = -reach; s <= reach; ++s) {
-      MpfrValue v(std::max<mpfr_prec_t>(mpfr_get_prec(x), format_.precision));
-      mpfr_set(v, x, nearest);
-      round_to_format(v, format_);
-      step_in_format(v, s, format_);
-      add(v);
-      mpfr_neg(v, v, nearest);
-      add(v);
-    }
-  }
-  void add_around_scaled(long m, long exponent, int reach) {
-    MpfrValue v(64);
-    mpfr_set_si_2exp(v, m, exponent, nearest);
-    add_around(v, reach);
-  }
-
-  std::vector<MpfrValue> values;
-
- private:
-  FloatFormat format_;
-};
-
-MpfrValue copy(const MpfrValue& x) {
-  MpfrValue v(mpfr_get_prec(x));
-  mpfr_set(v, x, nearest);
-  return v;
-}
-
-bool is_index(DomainMap m) { return m == DomainMap::UINT || m == DomainMap::INT; }
-
-// Infinities, zeros and NaN in C99 annex G leave signs open, so complex functions and special functions get finite
-// edges; for an index argument the small and the largest degrees.
-std::vector<MpfrValue> edge_values(const FunctionInfo& f, std::size_t argument, const FloatFormat& format) {
-  Values out(format);
-  const DomainMap map = f.domain[argument];
-  if (is_index(map)) {
-    for (const long i : {0L, 1L, 2L, 7L, 100L}) out.add_scaled(i, 0);
-    if (map == DomainMap::INT) {
-      for (const long i : {-1L, -2L, -100L}) out.add_scaled(i, 0);
-    }
-    return std::move(out.values);
-  }
-  const bool angle = map == DomainMap::MODPI || map == DomainMap::MOD2PI;
-  const bool few = f.arity > 2 || f.function_class != FunctionClass::real;
-  const ExponentRange range = sampled_exponents(format);
-  MpfrValue v(format.precision);
-  mpfr_set_zero(v, 1);
-  out.add(v);
-  if (!angle) {
-    mpfr_set_zero(v, -1);
-    out.add(v);
-  }
-  if (f.function_class == FunctionClass::real) {
-    mpfr_set_inf(v, 1);
-    out.add(v);
-    mpfr_set_inf(v, -1);
-    out.add(v);
-    mpfr_set_nan(v);
-    out.add(v);
-  }
-  if (angle) {
-    for (const long exponent : {range.least, -60L, -1L, 0L, 1L}) out.add_scaled(1, exponent);
-    mpfr_const_pi(v, nearest);
-    if (map == DomainMap::MODPI) mpfr_div_2ui(v, v, 1, nearest);
-    out.add(v);
-    return std::move(out.values);
-  }
-  if (few) {
-    for (const long exponent : {range.least, -1L, 0L, 1L, range.greatest}) {
-      if (f.function_class == FunctionClass::special && exponent == range.greatest) continue;
-      out.add_scaled(1, exponent);
-      out.add_scaled(-1, exponent);
-    }
-    out.add_scaled(3, -1);
-    out.add_scaled(-3, -1);
-    return std::move(out.values);
-  }
-  out.add_around_scaled(1, range.least, 0);
-  if (format.subnormals) out.add_around_scaled(1, format.exponent_min, 1);
-  mpfr_set_ui_2exp(v, 1, range.greatest, nearest);
-  out.add_around(v, 1);
-  mpfr_set_inf(v, 1);
-  step_in_format(v, -1, format);
-  if (format.exponent_max == range.greatest) out.add_around(v, 0);
-  out.add_around_scaled(1, 0, 2);
-  const long integers = f.arity == 1 ? 40 : 3;
-  for (long i = 2; i <= integers; ++i) out.add_around_scaled(i, 0, f.arity == 1 ? 1 : 0);
-  for (long i = 1; i <= 2 * integers; i += 2) out.add_around_scaled(i, -1, f.arity == 1 ? 1 : 0);
-  if (f.arity == 1) {
-    // The poles of tgamma go on to where it underflows; largest odd integers and halves end the exact integers.
-    for (const long i : {170L, 171L, 172L, 177L, 184L, 1755L, 1756L}) out.add_around_scaled(i, 0, 2);
-    out.add_around_scaled(1, format.precision - 1, 2);
-    out.add_around_scaled(1, format.precision, 2);
-  }
-  return std::move(out.values);
-}
-
 // 1 +- 2^-j and 2 +- 2^-j for every j of the format, and numbers a few steps from them.
-void add_near_one(Values& out, const FloatFormat& format, long centre) {
+void add_near_one(ArgumentValues& out, const FloatFormat& format, long centre) {
   MpfrValue v(format.precision + 2);
   for (long j = 1; j < format.precision + 1; ++j) {
     for (const int sign : {1, -1}) {
@@ -142,9 +23,10 @@ void add_near_one(Values& out, const FloatFormat& format, long centre) {
   }
 }
 
-// Walks x > 0 to where the binade of |f(x)| reaches `exponent`, by bisection; f must be monotonic on (low, high).
-void add_crossing(Values& out, const FunctionInfo& f, const FloatFormat& format, double low, double high, long exponent,
-                  bool increasing) {
+// Walks x > 0 to where the binade of |f(x)| reaches `exponent`, by bisection; f must be monotonic on (low,
+// high).
+void add_crossing(ArgumentValues& out, const FunctionInfo& f, const FloatFormat& format, double low,
+                  double high, long exponent, bool increasing) {
   const long bits = format.precision + 8;
   std::vector<MpfrValue> x;
   x.emplace_back(bits);
@@ -158,13 +40,15 @@ void add_crossing(Values& out, const FunctionInfo& f, const FloatFormat& format,
     mpfr_add(x[0], a, b, nearest);
     mpfr_div_2ui(x[0], x[0], 1, nearest);
     exact_value(f, x, y);
-    const bool beyond = mpfr_zero_p(y[0]) ? !increasing : mpfr_inf_p(y[0]) ? increasing : (binade(y[0]) >= exponent) == increasing;
+    const bool beyond = mpfr_zero_p(y[0])  ? !increasing
+                        : mpfr_inf_p(y[0]) ? increasing
+                                           : (binade(y[0]) >= exponent) == increasing;
     mpfr_set(beyond ? b : a, x[0], nearest);
   }
   out.add_around(b, 3);
 }
 
-void add_range(Values& out, const FunctionInfo& f, const FloatFormat& format) {
+void add_range(ArgumentValues& out, const FunctionInfo& f, const FloatFormat& format) {
   // sinh(x) ~ e^x/2 reaches 2^E at x = E ln 2: all arguments lie below 2^31 in every format.
   const double limit = 1.5 * static_cast<double>(format.exponent_max) + 100;
   using enum FunctionId;
@@ -185,7 +69,7 @@ void add_range(Values& out, const FunctionInfo& f, const FloatFormat& format) {
   add_near_one(out, format, 1);
 }
 
-void add_gamma(Values& out, const FunctionInfo& f, const FloatFormat& format) {
+void add_gamma(ArgumentValues& out, const FunctionInfo& f, const FloatFormat& format) {
   add_near_one(out, format, 1);
   add_near_one(out, format, 2);
   if (f.id != FunctionId::tgamma) return;
@@ -237,7 +121,7 @@ ArgumentList bessel_zeros(const FunctionInfo& f, const FloatFormat& format) {
           mpfr_sub(u1, u1, t, nearest);
           evaluate(u1, v1);
         }
-        Values near(format);
+        ArgumentValues near(format);
         near.add_around(u1, 1);
         for (auto& x : near.values) {
           std::vector<MpfrValue> point;
@@ -259,7 +143,7 @@ ArgumentList power_pairs(const FloatFormat& format) {
   ArgumentList list;
   const auto add = [&](mpfr_srcptr x, mpfr_srcptr y) {
     std::vector<MpfrValue> point;
-    Values both(format);
+    ArgumentValues both(format);
     both.add(x);
     both.add(y);
     for (auto& v : both.values) point.push_back(std::move(v));
@@ -300,29 +184,10 @@ ArgumentList power_pairs(const FloatFormat& format) {
 
 }  // namespace
 
-ExponentRange sampled_exponents(const FloatFormat& format) {
-  return {std::max(format.exponent_least(), -16494L), std::min(format.exponent_max, 16383L)};
-}
-
-ArgumentList edge_arguments(const FunctionInfo& f, const FloatFormat& format) {
-  std::vector<std::vector<MpfrValue>> axes;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(f.arity); ++i) axes.push_back(edge_values(f, i, format));
-  ArgumentList list;
-  std::vector<std::size_t> index(axes.size(), 0);
-  while (true) {
-    std::vector<MpfrValue> point;
-    for (std::size_t i = 0; i < axes.size(); ++i) point.push_back(copy(axes[i][index[i]]));
-    list.push_back(std::move(point));
-    std::size_t i = 0;
-    while (i < axes.size() && ++index[i] == axes[i].size()) index[i++] = 0;
-    if (i == axes.size()) return list;
-  }
-}
-
 std::vector<MpfrValue> nearest_to_multiples_of_half_pi(const FloatFormat& format, long greatest) {
   const long p = format.precision;
   const long fraction_bits = 3 * p + 128;
-  Values out(format);
+  ArgumentValues out(format);
   mpz_t two_over_pi;  // floor(2^(greatest + fraction_bits) * 2/pi)
   mpz_inits(two_over_pi, nullptr);
   {
@@ -380,7 +245,7 @@ std::vector<MpfrValue> nearest_to_multiples_of_half_pi(const FloatFormat& format
 
 ArgumentList hard_arguments(const FunctionInfo& f, const FloatFormat& format) {
   const WideExponentRange wide;
-  Values out(format);
+  ArgumentValues out(format);
   switch (f.hard) {
     case HardFamily::none:
       return {};

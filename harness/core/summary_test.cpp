@@ -1,0 +1,92 @@
+// Tests of summaries: exact sums, histograms, and that merging in any order gives the same.
+#include "harness/core/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace ulpgate {
+namespace {
+
+TEST(Histogram, BucketsHoldTheirUpperEdge) {
+  for (int i = UlpHistogram::least + 1; i < 400; ++i) {
+    const double edge = UlpHistogram::upper_edge(i);
+    EXPECT_EQ(UlpHistogram::bucket({edge}), i);
+    EXPECT_EQ(UlpHistogram::bucket({std::nextafter(edge, HUGE_VAL)}), i + 1);
+    EXPECT_NEAR(std::log2(edge), i / 4.0, 1e-14);
+  }
+  EXPECT_EQ(UlpHistogram::bucket({1e-300}), UlpHistogram::least);
+  EXPECT_EQ(UlpHistogram::bucket({HUGE_VAL}), UlpHistogram::greatest);
+}
+
+TEST(Histogram, Quantiles) {
+  UlpHistogram h;
+  EXPECT_TRUE(std::isnan(h.quantile(0.5)));
+  for (int i = 0; i < 98; ++i) h.add({0});
+  h.add({0.5});
+  h.add({4});
+  EXPECT_EQ(h.quantile(0.5), 0);
+  EXPECT_EQ(h.quantile(0.99), 0.5);
+  EXPECT_EQ(h.quantile(1), 4);
+}
+
+Summary random_part(std::mt19937& random, std::uint64_t first, std::uint64_t last) {
+  Summary s;
+  for (std::uint64_t k = first; k < last; ++k) {
+    Judgement j;
+    j.error = {std::exp2(static_cast<double>(random() % 64) - 40) * static_cast<double>(random() % 7)};
+    j.distance = std::floor(j.error.value);
+    j.correctly_rounded = j.error.value <= 0.5;
+    if (random() % 10 == 0) j.outcome = static_cast<Outcome>(1 + random() % 9);
+    s.add(j, k);
+  }
+  return s;
+}
+
+void expect_equal(const Summary& a, const Summary& b) {
+  EXPECT_EQ(a.samples, b.samples);
+  EXPECT_EQ(a.outcomes, b.outcomes);
+  EXPECT_EQ(a.first_index, b.first_index);
+  EXPECT_EQ(a.max_error.value, b.max_error.value);
+  EXPECT_EQ(a.max_error.index, b.max_error.index);
+  EXPECT_EQ(a.max_distance, b.max_distance);
+  EXPECT_EQ(a.histogram.counts, b.histogram.counts);
+  EXPECT_EQ(a.sum.to_text(), b.sum.to_text());
+  EXPECT_EQ(a.correctly_rounded, b.correctly_rounded);
+}
+
+TEST(Summary, MergesInAnyOrder) {
+  std::mt19937 random(7);
+  std::vector<Summary> parts;
+  for (std::uint64_t i = 0; i < 20; ++i) parts.push_back(random_part(random, 50 * i, 50 * i + 50));
+  Summary forwards;
+  for (const auto& p : parts) forwards.merge(p);
+  std::shuffle(parts.begin(), parts.end(), random);
+  Summary shuffled;
+  for (const auto& p : parts) shuffled.merge(p);
+  expect_equal(forwards, shuffled);
+}
+
+TEST(Summary, TiesGoToTheLowestIndex) {
+  Summary a;
+  Summary b;
+  a.add({Outcome::finite, {0.5}, 0, true}, 9);
+  b.add({Outcome::finite, {0.5}, 0, true}, 3);
+  a.merge(b);
+  EXPECT_EQ(a.max_error.index, 3U);
+}
+
+TEST(UlpSum, IsExactAndTextRoundTrips) {
+  UlpSum sum;
+  for (int i = 0; i < 1000; ++i) sum.add({0.1});
+  sum.add({HUGE_VAL});
+  EXPECT_EQ(UlpSum::from_text(sum.to_text()).to_text(), sum.to_text());
+  UlpSum small;
+  for (int i = 0; i < 4; ++i) small.add({0.25});
+  EXPECT_EQ(small.mean(4), 0.25);
+}
+
+}  // namespace
+}  // namespace ulpgate

@@ -1,0 +1,155 @@
+// Tests of the oracle by other oracles: identities, cpp_bin_float's own functions, known zeros, condition
+// numbers.
+#include "reference/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/special_functions/bessel.hpp>
+#include <boost/math/special_functions/laguerre.hpp>
+#include <boost/math/special_functions/spherical_harmonic.hpp>
+
+#include "reference/condition.hpp"
+#include "reference/exchange.hpp"
+
+namespace ulpgate {
+namespace {
+
+constexpr long bits = 300;
+
+std::vector<MpfrValue> vector(std::initializer_list<const char*> texts) {
+  std::vector<MpfrValue> v;
+  for (const char* t : texts) {
+    v.emplace_back(bits);
+    EXPECT_NE(mpfr_set_str(v.back(), t, 0, MPFR_RNDN), -1) << t;
+  }
+  return v;
+}
+
+std::vector<MpfrValue> exact(FunctionId id, std::initializer_list<const char*> args) {
+  std::vector<MpfrValue> out;
+  for (int i = 0; i < info_of(id).parts; ++i) out.emplace_back(bits);
+  exact_value(info_of(id), vector(args), out);
+  return out;
+}
+
+// Relative difference below 2^-exponent.
+void expect_close(mpfr_srcptr a, mpfr_srcptr b, long exponent, const char* why) {
+  if (mpfr_equal_p(a, b)) return;
+  MpfrValue d(bits);
+  mpfr_reldiff(d, a, b, MPFR_RNDN);
+  EXPECT_LT(mpfr_get_exp(d.get()), -exponent) << why;
+}
+
+using Wide = CppBinFloatReal<100>;
+
+Wide wide(const MpfrValue& x) {
+  return from_mpfr<Wide>(x);
+}
+
+TEST(Oracle, SpecialFunctionsAgreeWithBoostInCppBinFloat) {
+  struct Row {
+    FunctionId id;
+    std::initializer_list<const char*> args;
+    Wide re, im;
+  };
+  const Wide x("2.625");
+  const Wide t("0.75");
+  const Wide p("4.5");
+  const Row rows[] = {
+      {FunctionId::cyl_bessel_j, {"3", "2.625"}, boost::math::cyl_bessel_j(3, x), 0},
+      {FunctionId::laguerre, {"5", "2", "2.625"}, boost::math::laguerre(5U, 2U, x), 0},
+      {FunctionId::laguerre, {"0", "4", "2.625"}, boost::math::laguerre(0U, 4U, x), 0},
+      {FunctionId::spherical_harmonic,
+       {"4", "3", "0.75", "4.5"},
+       boost::math::spherical_harmonic_r(4U, 3, t, p),
+       boost::math::spherical_harmonic_i(4U, 3, t, p)},
+      {FunctionId::spherical_harmonic,
+       {"4", "-3", "0.75", "4.5"},
+       boost::math::spherical_harmonic_r(4U, -3, t, p),
+       boost::math::spherical_harmonic_i(4U, -3, t, p)},
+      {FunctionId::spherical_harmonic,
+       {"7", "0", "0.75", "4.5"},
+       boost::math::spherical_harmonic_r(7U, 0, t, p),
+       0},
+      {FunctionId::spherical_harmonic, {"2", "3", "0.75", "4.5"}, 0, 0},
+      {FunctionId::factorial, {"30"}, Wide("265252859812191058636308480000000"), 0},
+  };
+  for (const auto& row : rows) {
+    const auto got = exact(row.id, row.args);
+    const auto near = [&](const Wide& a, const Wide& b) {
+      return abs(a - b) <= Wide("1e-90") * (abs(b) + Wide("1e-5"));
+    };
+    EXPECT_TRUE(near(wide(got[0]), row.re)) << info_of(row.id).name << " " << wide(got[0]) << " " << row.re;
+    if (got.size() > 1) {
+      EXPECT_TRUE(near(wide(got[1]), row.im)) << info_of(row.id).name << " im";
+    }
+  }
+}
+
+TEST(Oracle, OwnComplexFormulasAgreeWithMpc) {
+  const char* points[][2] = {{"1", "2"},      {"-0.3", "0.7"}, {"1e-5", "-3"},
+                             {"40", "-1e-3"}, {"-2.5", "0"},   {"0", "11"}};
+  for (const auto& p : points) {
+    const auto a = vector({p[0], p[1]});
+    const auto tan = exact(FunctionId::ctan, {p[0], p[1]});
+    const auto tanh = exact(FunctionId::ctanh, {p[0], p[1]});
+    const auto power = exact(FunctionId::cpow, {p[0], p[1], "0.5", "1.25"});
+    mpc_t z, w, r;
+    mpc_init2(z, bits);
+    mpc_init2(w, bits);
+    mpc_init2(r, bits);
+    mpc_set_fr_fr(z, a[0], a[1], MPC_RNDNN);
+    mpc_tan(r, z, MPC_RNDNN);
+    expect_close(tan[0], mpc_realref(r), bits - 3, "tan re");
+    expect_close(tan[1], mpc_imagref(r), bits - 3, "tan im");
+    mpc_tanh(r, z, MPC_RNDNN);
+    expect_close(tanh[0], mpc_realref(r), bits - 3, "tanh re");
+    expect_close(tanh[1], mpc_imagref(r), bits - 3, "tanh im");
+    mpc_set_d_d(w, 0.5, 1.25, MPC_RNDNN);
+    mpc_pow(r, z, w, MPC_RNDNN);
+    expect_close(power[0], mpc_realref(r), bits - 3, "pow re");
+    expect_close(power[1], mpc_imagref(r), bits - 3, "pow im");
+    mpc_clear(z);
+    mpc_clear(w);
+    mpc_clear(r);
+  }
+}
+
+TEST(Oracle, SpecialValuesFollowC99) {
+  const auto is = [](FunctionId id, std::initializer_list<const char*> args, const char* wanted) {
+    const auto got = exact(id, args);
+    const auto want = vector({wanted});
+    const bool same = (mpfr_nan_p(got[0].get()) && mpfr_nan_p(want[0].get())) ||
+                      (mpfr_equal_p(got[0].get(), want[0].get()) &&
+                       mpfr_signbit(got[0].get()) == mpfr_signbit(want[0].get()));
+    EXPECT_TRUE(same) << info_of(id).name << " " << *args.begin();
+  };
+  is(FunctionId::pow, {"1", "@NaN@"}, "1");
+  is(FunctionId::pow, {"@NaN@", "0"}, "1");
+  is(FunctionId::hypot, {"@Inf@", "@NaN@"}, "@Inf@");
+  is(FunctionId::tgamma, {"-0"}, "-@Inf@");
+  is(FunctionId::tgamma, {"-3"}, "@NaN@");
+  is(FunctionId::lgamma, {"-3"}, "@Inf@");
+  is(FunctionId::logb, {"0"}, "-@Inf@");
+  is(FunctionId::logb, {"-0.75"}, "-1");
+  is(FunctionId::atan2, {"-0", "-1"},
+     "-3."
+     "1415926535897932384626433832795028841971693993751058209749445923078164062862089986280348253421170679821"
+     "4808651");
+}
+
+TEST(Condition, MatchesClosedForms) {
+  const auto condition = [](FunctionId id, std::initializer_list<const char*> args) {
+    return condition_number(info_of(id), vector(args), 0, 53);
+  };
+  EXPECT_NEAR(condition(FunctionId::exp, {"7"}), 7, 1e-12);
+  EXPECT_NEAR(condition(FunctionId::log, {"2"}), 1 / std::log(2.0), 1e-12);
+  EXPECT_NEAR(condition(FunctionId::sqrt, {"5"}), 0.5, 1e-12);
+  EXPECT_NEAR(condition(FunctionId::sub, {"1", "0.75"}), 7, 1e-12) << "(|x| + |y|) / |x - y|";
+  EXPECT_EQ(condition(FunctionId::log, {"1"}), HUGE_VAL) << "a zero";
+  EXPECT_TRUE(std::isnan(condition(FunctionId::log, {"-1"})));
+  EXPECT_EQ(condition(FunctionId::acos, {"1"}), HUGE_VAL) << "x = 1: one-sided, f is zero";
+}
+
+}  // namespace
+}  // namespace ulpgate

@@ -1,0 +1,33 @@
+# Shared by the scripts: where the project is, how to say what failed, which Python to use.
+# shellcheck shell=bash
+set -euo pipefail
+ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+JOBS="${ULPGATE_JOBS:-$(nproc)}"
+
+step() { printf '\n== %s\n' "$*" >&2; }
+fail() {
+  printf '%s: FAILED: %s\n' "$(basename "$0")" "$*" >&2
+  exit 1
+}
+
+# Debian's python3 has the packages that setup installs; another python3 may come first on PATH.
+find_python() {
+  local python
+  for python in "${ULPGATE_PYTHON:-python3}" /usr/bin/python3; do
+    if "$python" -c 'import matplotlib, numpy, jinja2, jsonschema, mpmath, pytest' 2>/dev/null; then
+      printf '%s\n' "$python"
+      return
+    fi
+  done
+  fail "no python3 with matplotlib, numpy, jinja2, jsonschema, mpmath and pytest; run scripts/setup"
+}
+
+# build PRESET [cmake option...]
+build() {
+  local preset="$1"
+  shift
+  step "build ($preset)"
+  cmake -S "$ROOT" --preset "$preset" "$@" >"$ROOT/build/$preset.configure.log" 2>&1 ||
+    { cat "$ROOT/build/$preset.configure.log" >&2; fail "cmake --preset $preset"; }
+  cmake --build "$ROOT/build/$preset" --parallel "$JOBS" || fail "the $preset build"
+}
