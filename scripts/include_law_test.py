@@ -20,9 +20,7 @@ def test_the_project_keeps_the_law():
 def test_an_include_running_back_up_is_named(tmp_path):
     write(tmp_path, "reference/a.hpp", '// A.\n#include "kernels/math/b.hpp"\n')
     write(tmp_path, "kernels/math/b.hpp", '// B.\n#include "reference/a.hpp"\n')
-    write(
-        tmp_path, "harness/core/c.cpp", '// C.\n  #  include "harness/app/d.hpp"\n'
-    )
+    write(tmp_path, "harness/core/c.cpp", '// C.\n  #  include "harness/app/d.hpp"\n')
     broken = include_law.broken_laws(tmp_path)
     assert [law.split(":")[0] for law in broken] == [
         "reference/a.hpp",
