@@ -16,7 +16,8 @@ void bare(benchmark::State& state, const ulpgate::TypeEngine* engine, ulpgate::F
 void judged(benchmark::State& state, const ulpgate::TypeEngine* engine, ulpgate::FunctionInfo f) {
   ulpgate::RowHint hint(f.parts);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(engine->evaluate(f, {ulpgate::Stratum::uniform, 1, batch, nullptr}, 0, batch, hint));
+    benchmark::DoNotOptimize(
+        engine->evaluate(f, {ulpgate::Stratum::uniform, 1, batch, nullptr}, 0, batch, hint));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch));
 }

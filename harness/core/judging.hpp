@@ -31,7 +31,7 @@ class Judging {
   Judging(const Judging&) = delete;
   Judging& operator=(const Judging&) = delete;
   virtual ~Judging() = default;
-  // out[i * parts + part]; args_exact(i) below are valid only during the call.
+  // out[i * parts + part] judges that part of point i.
   virtual void judge(const Batch<Real>& batch, std::span<Judgement> out) const = 0;
 };
 
@@ -58,7 +58,13 @@ class FullJudging final : public Judging<Real> {
       exact_value(batch.function, args, exact);
       for (std::size_t j = 0; j < parts; ++j) {
         to_mpfr(got.get(), batch.results[i * parts + j]);
-        out[i * parts + j] = ulpgate::judge(got, exact[j], format);
+        Judgement& judgement = out[i * parts + j];
+        judgement = ulpgate::judge(got, exact[j], format);
+        // The series of a special function define a value, not the sign of its zeros.
+        if (judgement.outcome == Outcome::zero_sign &&
+            batch.function.function_class == FunctionClass::special) {
+          judgement = {};
+        }
       }
     }
   }

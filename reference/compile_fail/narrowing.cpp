@@ -6,6 +6,6 @@ int main() {
 #ifdef FAIL
   return static_cast<int>(ulpgate::widen<double>(x));
 #else
-  return static_cast<int>(ulpgate::widen<ulpgate::MpfrReal<248>>(x));
+  return static_cast<int>(ulpgate::widen<ulpgate::MpfrReal<248> >(x));
 #endif
 }

@@ -8,8 +8,8 @@
 
 namespace ulpgate::testing {
 
-// exp by reduction to |r| <= ln2/2 and a Taylor polynomial of degree 13 in Horner form, as libraries do it; the
-// coefficient 1/5! is off by one part in 10^5.
+// exp by reduction to |r| <= ln2/2 and a Taylor polynomial of degree 13 in Horner form, as libraries do it;
+// the coefficient 1/5! is off by one part in 10^5.
 inline double wrong_exp(double x) {
   if (!(x > -700 && x < 700)) return std::exp(x);
   const double n = std::nearbyint(x / 0.69314718055994530942);
