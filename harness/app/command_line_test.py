@@ -117,7 +117,9 @@ def test_lgamma_of_cpp_bin_float_is_wrong_between_1_and_3():
     assert json.loads(out)["ulp_error"] > 1e4
 
 
-@pytest.mark.skipif("ULPGATE_SANITIZED" in os.environ, reason="slow starts; the gate runs all edges")
+@pytest.mark.skipif(
+    "ULPGATE_SANITIZED" in os.environ, reason="slow starts; the gate runs all edges"
+)
 def test_no_special_argument_crashes(tmp_path):
     functions = json.loads(run("list", "functions", "--json")[1])
     for f in functions:
