@@ -1,30 +1,30 @@
 // The one opt-in header for arithmetic between RealHP levels: the narrower operand is widened exactly first.
 //
-// Without it `RealHP<1> + RealHP<4>` of a multiprecision base does not compile, so a forgotten conversion
-// cannot hide in a kernel.  Include it only where mixing is the purpose (comparing a result to its
-// reference).
+// Without it `RealHP<1> + RealHP<4>` of multiprecision types does not compile (real_types.hpp deletes it).
+// Include it only where mixing is the purpose, such as comparing a result with its reference.
 #pragma once
 
 #include "reference/widen.hpp"
 
-namespace ulpgate::detail {
+namespace ulpgate {
+
+// More constrained than DifferentLevels, so that these operators win over the deleted ones.
 template <class A, class B>
-concept MixedNumbers =
-    RealType<A> && RealType<B> && !std::same_as<A, B> &&
-    (mp::is_number<A>::value && mp::is_number<B>::value) && (widens_exactly<A, B> || widens_exactly<B, A>);
+concept MixableLevels = DifferentLevels<A, B> &&(widens_exactly<A, B> || widens_exactly<B, A>);
 
 template <class A, class B>
-using Wider = std::conditional_t<widens_exactly<A, B>, B, A>;
-}  // namespace ulpgate::detail
+using WiderOf = std::conditional_t<widens_exactly<A, B>, B, A>;
+
+}  // namespace ulpgate
 
 namespace boost::multiprecision {
 
-#define ULPGATE_MIXED_OPERATOR(op)                                                 \
-  template <class A, class B>                                                      \
-  requires ulpgate::detail::MixedNumbers<A, B>                                     \
-  [[nodiscard]] ulpgate::detail::Wider<A, B> operator op(const A& a, const B& b) { \
-    using W = ulpgate::detail::Wider<A, B>;                                        \
-    return ulpgate::widen<W>(a) op ulpgate::widen<W>(b);                           \
+#define ULPGATE_MIXED_OPERATOR(op)                                                         \
+  template <class A, class B>                                                              \
+  requires ulpgate::MixableLevels<number<A, et_off>, number<B, et_off>>                    \
+  [[nodiscard]] auto operator op(const number<A, et_off>& a, const number<B, et_off>& b) { \
+    using Wider = ulpgate::WiderOf<number<A, et_off>, number<B, et_off>>;                  \
+    return ulpgate::widen<Wider>(a) op ulpgate::widen<Wider>(b);                           \
   }
 ULPGATE_MIXED_OPERATOR(+)
 ULPGATE_MIXED_OPERATOR(-)

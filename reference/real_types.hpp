@@ -113,4 +113,25 @@ inline constexpr bool widens_exactly = [] {
          F::min_exponent - long{F::digits} >= T::min_exponent - long{T::digits} - slack;
 }();
 
+// Two multiprecision levels that must not meet in one operation by accident.
+template <class A, class B>
+concept DifferentLevels = RealType<A> && RealType<B> && !std::same_as<A, B>;
+
 }  // namespace ulpgate
+
+// Boost would convert the narrower operand in silence, and a forgotten conversion would hide in a kernel; so
+// arithmetic between levels does not compile unless reference/mixed_precision.hpp is included.  (Found by
+// ADL, like Boost's own.)
+namespace boost::multiprecision {
+
+#define ULPGATE_NO_MIXED_OPERATOR(op)                                     \
+  template <class A, class B>                                             \
+  requires ulpgate::DifferentLevels<number<A, et_off>, number<B, et_off>> \
+  void operator op(const number<A, et_off>& a, const number<B, et_off>& b) = delete;
+ULPGATE_NO_MIXED_OPERATOR(+)
+ULPGATE_NO_MIXED_OPERATOR(-)
+ULPGATE_NO_MIXED_OPERATOR(*)
+ULPGATE_NO_MIXED_OPERATOR(/)
+#undef ULPGATE_NO_MIXED_OPERATOR
+
+}  // namespace boost::multiprecision
