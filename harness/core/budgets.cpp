@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 namespace ulpgate {
@@ -15,7 +16,8 @@ namespace {
 double round_up(double x) {
   if (!(x > 0) || !std::isfinite(x)) return x;
   for (double up = x;; up = std::nextafter(up * (1 + 1e-4), HUGE_VAL)) {
-    const double rounded = std::stod(fmt::format("{:.2e}", up));
+    // strtod, unlike stod, gives infinity beyond the range: the next limit above 1.79e308.
+    const double rounded = std::strtod(fmt::format("{:.2e}", up).c_str(), nullptr);
     if (rounded >= x) return rounded;
   }
 }
