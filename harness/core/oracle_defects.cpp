@@ -23,6 +23,7 @@ constexpr std::string_view reduction =
 constexpr std::string_view range_end = "boost cpp_bin_float: wrong next to over- and underflow at 2^(2^31)";
 constexpr std::string_view remainders =
     "boost cpp_bin_float: fmod and remainder of huge quotients and of infinities";
+constexpr std::string_view poles = "boost cpp_bin_float: tgamma of huge negative integers is no NaN";
 constexpr std::string_view cancelling = "the polynomial cancels more digits than RealHP<4> carries";
 
 constexpr std::array defects = {
@@ -48,6 +49,12 @@ constexpr std::array defects = {
     Defect{FunctionId::erfc, "cpp_bin_float", range_end},
     Defect{FunctionId::fmod, "cpp_bin_float", remainders},
     Defect{FunctionId::remainder, "cpp_bin_float", remainders},
+    Defect{FunctionId::ccos, "cpp_bin_float", definitions},
+    Defect{FunctionId::ccosh, "cpp_bin_float", definitions},
+    Defect{FunctionId::cexp, "cpp_bin_float", reduction},
+    Defect{FunctionId::cpolar, "cpp_bin_float", reduction},
+    Defect{FunctionId::cyl_bessel_j, "cpp_bin_float", reduction},
+    Defect{FunctionId::tgamma, "cpp_bin_float", poles},
     Defect{FunctionId::laguerre, "float", cancelling},
 };
 
