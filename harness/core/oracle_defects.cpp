@@ -23,7 +23,7 @@ constexpr std::string_view reduction =
 constexpr std::string_view range_end = "boost cpp_bin_float: wrong next to over- and underflow at 2^(2^31)";
 constexpr std::string_view remainders =
     "boost cpp_bin_float: fmod and remainder of huge quotients and of infinities";
-constexpr std::string_view poles = "boost cpp_bin_float: tgamma of huge negative integers is no NaN";
+constexpr std::string_view poles = "boost cpp_bin_float: tgamma of huge negative arguments gives no zero";
 constexpr std::string_view cancelling = "the polynomial cancels more digits than RealHP<4> carries";
 
 constexpr std::array defects = {
