@@ -29,10 +29,17 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
   bool has_limit = false;
   for (const auto& [key, node] : row) {
     if (key == "max_ulp") {
-      const auto limit = node.value<double>();
-      if (!limit || std::isnan(*limit) || *limit < 0)
-        bad(file, node, fmt::format("[{}] max_ulp must be a number >= 0", name));
-      budget.max_ulp = *limit;
+      const auto* limits = node.as_table();
+      if (limits == nullptr)
+        bad(file, node, fmt::format("[{}] max_ulp must be a table {{ stratum = limit }}", name));
+      for (const auto& [stratum, value] : *limits) {
+        const auto limit = value.value<double>();
+        if (!find_stratum(stratum.str()))
+          bad(file, value, fmt::format("[{}] max_ulp: no stratum '{}'", name, stratum.str()));
+        if (!limit || std::isnan(*limit) || *limit < 0)
+          bad(file, value, fmt::format("[{}] max_ulp of {} must be a number >= 0", name, stratum.str()));
+        budget.max_ulp[std::string(stratum.str())] = *limit;
+      }
       has_limit = true;
     } else if (key == "reason" && node.is_string()) {
       budget.reason = *node.value<std::string>();
@@ -57,16 +64,21 @@ std::string number(double x) {
 
 std::string file_text(const std::string& token, const TypeBudgets& type) {
   std::string text = fmt::format(
-      "# Budgets of {}: the largest error in ULP and the accepted mismatches of every function, all strata "
-      "together.\n"
+      "# Budgets of {}: the largest error in ULP and the accepted mismatches of every function, by stratum.\n"
       "# Written by `ulpgate gate DIR --budgets ci/budgets --update`; raised only with `--reason`.\n"
       "[plan]\nsamples = {}\nseed = {}\n",
       token, type.samples, type.seed);
   for (const auto& [row, b] : type.rows) {
-    text += fmt::format("\n[budget.\"{}\"]\nmax_ulp = {}\n", row, number(b.max_ulp));
+    text += fmt::format("\n[budget.\"{}\"]\nmax_ulp = {{", row);
+    const char* separator = " ";
+    for (const auto& [stratum, limit] : b.max_ulp) {
+      text += fmt::format("{}{} = {}", separator, stratum, number(limit));
+      separator = ", ";
+    }
+    text += " }\n";
     if (!b.mismatch.empty()) {
       text += "mismatch = {";
-      const char* separator = " ";
+      separator = " ";
       for (const auto& [key, count] : b.mismatch) {
         text += fmt::format("{}\"{}\" = {}", separator, key, count);
         separator = ", ";

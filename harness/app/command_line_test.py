@@ -201,7 +201,9 @@ def test_broken_budget_files_are_named_with_line_and_key(tmp_path):
     budgets.mkdir()
     file = budgets / "double.toml"
     for text, where in [
-        ('[budget."sin"]\nmax_ulp = "high"\n', "double.toml:2"),
+        ('[budget."sin"]\nmax_ulp = 0.5\n', "double.toml:2"),
+        ('[budget."sin"]\nmax_ulp = { edges = "high" }\n', "double.toml:2"),
+        ('[budget."sin"]\nmax_ulp = { egdes = 0.5 }\n', "no stratum 'egdes'"),
         ('[budget."sin"]\nmax_upl = 1\n', "double.toml:2"),
         ('[budget."sin"\n', "double.toml:1"),
         ("[other]\nx = 1\n", "double.toml:1"),

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <set>
 
 namespace ulpgate {
 
@@ -37,17 +37,17 @@ std::uint64_t allowed_count(std::uint64_t budgeted, const RowRecord& r, const Ty
   return static_cast<std::uint64_t>(std::ceil(expected + 5 * std::sqrt(expected) + 5));
 }
 
-void judge_row(const RowRecord& r, const Budget& budget, const TypeBudgets& type,
+// `limit` is the row's own in this stratum.
+void judge_row(const RowRecord& r, const Budget& budget, double limit, const TypeBudgets& type,
                std::vector<Finding>& findings) {
   const std::string row = budget_key(r);
   const Summary& s = r.summary;
   // NaN limits cannot be: comparisons are written so that anything unordered fails.
-  if (s.judged() > 0 && !(s.max_error.value <= budget.max_ulp)) {
-    findings.push_back(
-        {FindingKind::regression, r.type, row,
-         fmt::format("maximum error {:.6g} ULP, budget {:.6g} ({}: got {}, exact {})", s.max_error.value,
-                     budget.max_ulp, r.stratum, r.points.got, r.points.exact),
-         s.max_error.value / std::max(budget.max_ulp, 1e-300), r.points.argmax});
+  if (s.judged() > 0 && !(s.max_error.value <= limit)) {
+    findings.push_back({FindingKind::regression, r.type, row,
+                        fmt::format("maximum error {:.6g} ULP, budget {:.6g} ({}: got {}, exact {})",
+                                    s.max_error.value, limit, r.stratum, r.points.got, r.points.exact),
+                        s.max_error.value / std::max(limit, 1e-300), r.points.argmax});
   }
   for (std::size_t o = 1; o < outcome_count; ++o) {
     if (s.outcomes[o] == 0) continue;
@@ -70,8 +70,7 @@ std::string budget_key(const RowRecord& r) {
 std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const Budgets& budgets,
                                    MissingRecords missing) {
   std::vector<Finding> findings;
-  std::map<std::pair<std::string, std::string>, double> measured;
-  std::set<std::pair<std::string, std::string>> unbudgeted;
+  std::map<std::array<std::string, 3>, double> measured;  // by type, row, stratum
   for (const RowRecord& r : records) {
     const std::string row = budget_key(r);
     if (r.summary.samples != r.planned) {
@@ -82,35 +81,46 @@ std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const 
                           0,
                           {}});
     }
-    auto& most = measured.try_emplace({r.type, row}, -1).first->second;
-    most = std::max(most, r.summary.max_error.value);
+    measured[{r.type, row, r.stratum}] = r.summary.judged() > 0 ? r.summary.max_error.value : 0;
     const auto type = budgets.find(r.type);
-    if (type == budgets.end() || !type->second.rows.contains(row)) {
-      if (unbudgeted.insert({r.type, row}).second) {
-        findings.push_back(
-            {FindingKind::missing_budget, r.type, row, "no budget; write one with --update", 0, {}});
-      }
+    const Budget* budget = nullptr;
+    if (type != budgets.end()) {
+      const auto it = type->second.rows.find(row);
+      if (it != type->second.rows.end() && it->second.max_ulp.contains(r.stratum)) budget = &it->second;
+    }
+    if (budget == nullptr) {
+      findings.push_back({FindingKind::missing_budget,
+                          r.type,
+                          row,
+                          fmt::format("no budget for {}; write one with --update", r.stratum),
+                          0,
+                          {}});
       continue;
     }
-    judge_row(r, type->second.rows.at(row), type->second, findings);
+    judge_row(r, *budget, budget->max_ulp.at(r.stratum), type->second, findings);
   }
   for (const auto& [token, type] : budgets) {
     for (const auto& [row, budget] : type.rows) {
-      const auto it = measured.find({token, row});
-      if (it == measured.end()) {
-        if (missing == MissingRecords::fail) {
-          findings.push_back({FindingKind::missing_record, token, row, "budgeted but not measured", 0, {}});
+      for (const auto& [stratum, limit] : budget.max_ulp) {
+        const auto it = measured.find({token, row, stratum});
+        if (it == measured.end()) {
+          if (missing == MissingRecords::fail) {
+            findings.push_back({FindingKind::missing_record,
+                                token,
+                                row,
+                                fmt::format("budgeted but not measured in {}", stratum),
+                                0,
+                                {}});
+          }
+        } else if (it->second < 0.5 * limit) {
+          findings.push_back({FindingKind::could_lower,
+                              token,
+                              row,
+                              fmt::format("measured {:.4g} ULP in {}, budget {:.4g}: lower it with --update",
+                                          it->second, stratum, limit),
+                              0,
+                              {}});
         }
-        continue;
-      }
-      if (it->second >= 0 && it->second < 0.5 * budget.max_ulp) {
-        findings.push_back({FindingKind::could_lower,
-                            token,
-                            row,
-                            fmt::format("measured {:.4g} ULP, budget {:.4g}: lower it with --update",
-                                        it->second, budget.max_ulp),
-                            0,
-                            {}});
       }
     }
   }
@@ -128,13 +138,49 @@ Budgets measured_budgets(const std::vector<RowRecord>& records, std::uint64_t sa
     type.samples = samples;
     type.seed = seed;
     Budget& budget = type.rows[budget_key(r)];
-    budget.max_ulp = std::max(budget.max_ulp, round_up(r.summary.max_error.value));
+    budget.max_ulp[r.stratum] = r.summary.judged() > 0 ? round_up(r.summary.max_error.value) : 0;
     for (std::size_t o = 1; o < outcome_count; ++o) {
       if (r.summary.outcomes[o] > 0) budget.mismatch[mismatch_key(r, o)] = r.summary.outcomes[o];
     }
   }
   return budgets;
 }
+
+namespace {
+
+bool is_of_stratum(const std::string& mismatch_key, const std::string& stratum) {
+  return mismatch_key.starts_with(stratum + ".");
+}
+
+// What would rise from `before` to `after`, as text; empty when nothing would.
+std::string rises(const Budget& before, const Budget& after, bool same_plan) {
+  std::string what;
+  for (const auto& [stratum, limit] : after.max_ulp) {
+    const auto old = before.max_ulp.find(stratum);
+    if (old != before.max_ulp.end() && limit > old->second)
+      what += fmt::format(" {} {:.4g} -> {:.4g} ULP", stratum, old->second, limit);
+  }
+  for (const auto& [key, count] : after.mismatch) {
+    // A stratum without a limit was never measured: its counts appear freely, like its limit.
+    if (!before.max_ulp.contains(key.substr(0, key.find('.')))) continue;
+    const auto old = before.mismatch.find(key);
+    const std::uint64_t known = old == before.mismatch.end() ? 0 : old->second;
+    // Counts of another plan are not comparable one by one; a new class always is a raise.
+    if (count > known && (same_plan || known == 0)) what += fmt::format(" {} {} -> {}", key, known, count);
+  }
+  return what.empty() ? what : what.substr(1);
+}
+
+// Replaces the limits of the strata that `measured` holds.
+void replace_strata(Budget& mine, const Budget& measured) {
+  for (const auto& [stratum, limit] : measured.max_ulp) {
+    mine.max_ulp[stratum] = limit;
+    std::erase_if(mine.mismatch, [&](const auto& entry) { return is_of_stratum(entry.first, stratum); });
+  }
+  mine.mismatch.insert(measured.mismatch.begin(), measured.mismatch.end());
+}
+
+}  // namespace
 
 std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured, const std::string& reason) {
   std::vector<Raise> raises;
@@ -145,33 +191,12 @@ std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured, con
     mine.samples = type.samples;
     mine.seed = type.seed;
     for (const auto& [row, budget] : type.rows) {
-      const auto it = mine.rows.find(row);
-      if (it == mine.rows.end()) {
-        mine.rows[row] = budget;
-        continue;
-      }
-      std::string what;
-      if (budget.max_ulp > it->second.max_ulp) {
-        what = fmt::format("max_ulp {:.4g} -> {:.4g}", it->second.max_ulp, budget.max_ulp);
-      }
-      for (const auto& [key, count] : budget.mismatch) {
-        const auto old = it->second.mismatch.find(key);
-        const std::uint64_t before = old == it->second.mismatch.end() ? 0 : old->second;
-        // Counts of another plan are not comparable one by one; a new class always is a raise.
-        if (count > before && (same_plan || before == 0))
-          what += fmt::format(" {} {} -> {}", key, before, count);
-      }
-      if (what.empty()) {
-        const std::string kept = it->second.reason;
-        it->second = budget;
-        it->second.reason = kept;
-      } else {
-        raises.push_back({token, row, what});
-        if (!reason.empty()) {
-          it->second = budget;
-          it->second.reason = reason;
-        }
-      }
+      Budget& old = mine.rows[row];
+      const std::string what = rises(old, budget, same_plan);
+      if (!what.empty()) raises.push_back({token, row, what});
+      if (!what.empty() && reason.empty()) continue;
+      replace_strata(old, budget);
+      if (!what.empty()) old.reason = reason;
     }
   }
   return raises;

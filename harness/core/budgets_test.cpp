@@ -79,18 +79,43 @@ TEST(Gate, CountsMismatchesByStratumAndClass) {
 TEST(Budgets, FallFreelyAndRiseWithAReasonOnly) {
   auto budgets = budgets_of({record("exp", 0.512)});
   EXPECT_TRUE(update_budgets(budgets, budgets_of({record("exp", 0.505)}), "").empty());
-  EXPECT_EQ(budgets["double"].rows["exp"].max_ulp, 0.505);
+  EXPECT_EQ(budgets["double"].rows["exp"].max_ulp["uniform"], 0.505);
   const auto raises = update_budgets(budgets, budgets_of({record("exp", 0.6)}), "");
   ASSERT_EQ(raises.size(), 1U);
-  EXPECT_EQ(budgets["double"].rows["exp"].max_ulp, 0.505);
+  EXPECT_EQ(budgets["double"].rows["exp"].max_ulp["uniform"], 0.505);
   EXPECT_EQ(update_budgets(budgets, budgets_of({record("exp", 0.6)}), "new libm").size(), 1U);
-  EXPECT_EQ(budgets["double"].rows["exp"].max_ulp, 0.6);
+  EXPECT_EQ(budgets["double"].rows["exp"].max_ulp["uniform"], 0.6);
   EXPECT_EQ(budgets["double"].rows["exp"].reason, "new libm");
+}
+
+TEST(Gate, HoldsEveryStratumToItsOwnLimit) {
+  const auto budgets = budgets_of({record("sin", 0.515), record("sin", 1.4e5, "hard")});
+  const auto findings =
+      judge_records({record("sin", 5), record("sin", 1.4e5, "hard")}, budgets, MissingRecords::fail);
+  ASSERT_EQ(kinds(findings), Kinds{FindingKind::regression});
+  EXPECT_NE(findings[0].message.find("budget 0.515 (uniform"), std::string::npos) << findings[0].message;
+  EXPECT_EQ(kinds(judge_records({record("sin", 0.51), record("sin", 0.51, "edges")}, budgets,
+                                MissingRecords::ignore)),
+            Kinds{FindingKind::missing_budget});
+}
+
+TEST(Budgets, StrataThatWereNotMeasuredStay) {
+  RowRecord edges = record("sqrt", 0.5, "edges");
+  edges.summary.add({Outcome::nan, {}, 0, false}, 10);
+  auto budgets = budgets_of({record("sqrt", 0.5), edges});
+  const auto before = budgets;
+  EXPECT_TRUE(update_budgets(budgets, budgets_of({record("sqrt", 0.5)}), "").empty());
+  EXPECT_EQ(budgets, before);
+  EXPECT_TRUE(update_budgets(budgets, budgets_of({record("sqrt", 0.5, "hard")}), "").empty());
+  EXPECT_EQ(budgets["double"].rows["sqrt"].max_ulp.size(), 3U);
+  // The NaN is gone: the count falls with the next measurement of its stratum.
+  EXPECT_TRUE(update_budgets(budgets, budgets_of({record("sqrt", 0.5, "edges")}), "").empty());
+  EXPECT_TRUE(budgets["double"].rows["sqrt"].mismatch.empty());
 }
 
 TEST(Budgets, RoundUpToThreeDigits) {
   for (const double x : {0.5, 0.51234, 1.0, 7.19999, 8.0e18, 5.3e4, 123456.0, 1e-310}) {
-    const double up = budgets_of({record("exp", x)})["double"].rows["exp"].max_ulp;
+    const double up = budgets_of({record("exp", x)})["double"].rows["exp"].max_ulp["uniform"];
     EXPECT_GE(up, x);
     EXPECT_LE(up, x * 1.011);
   }
