@@ -2,6 +2,8 @@
 #include "reference/oracle.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <optional>
 
 #include "reference/oracle_special.hpp"
 
@@ -51,6 +53,13 @@ struct ComplexArgument {
   mpc_t value;
 };
 
+// MPC's return value for two rounded parts, for our compositions, which do not know better.
+constexpr int both_rounded = MPC_INEX(1, 1);
+
+ExactParts exact_parts(int ternary) {
+  return {MPC_INEX_RE(ternary) == 0, MPC_INEX_IM(ternary) == 0};
+}
+
 // polar(r, t) = (r cos t, r sin t); 32 guard bits make the product's error 2^-31 ulp at most.
 void polar(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
   MpfrValue s(mpfr_get_prec(out[0]) + 32);
@@ -92,97 +101,142 @@ bool is_finite(mpc_srcptr z) {
   return mpfr_number_p(mpc_realref(z)) != 0 && mpfr_number_p(mpc_imagref(z)) != 0;
 }
 
-void tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
-  if (!is_finite(z)) {
-    mpc_tan(out, z, rounding);
-  } else {
-    tangent_parts(mpc_realref(out), mpc_imagref(out), mpc_realref(z), mpc_imagref(z));
-  }
+int tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
+  if (!is_finite(z)) return mpc_tan(out, z, rounding);
+  tangent_parts(mpc_realref(out), mpc_imagref(out), mpc_realref(z), mpc_imagref(z));
+  return both_rounded;
 }
 
 // tanh z = -i tan(iz): the parts of z change their roles.
-void hyperbolic_tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
-  if (!is_finite(z)) {
-    mpc_tanh(out, z, rounding);
-  } else {
-    tangent_parts(mpc_imagref(out), mpc_realref(out), mpc_imagref(z), mpc_realref(z));
-  }
+int hyperbolic_tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
+  if (!is_finite(z)) return mpc_tanh(out, z, rounding);
+  tangent_parts(mpc_imagref(out), mpc_realref(out), mpc_imagref(z), mpc_realref(z));
+  return both_rounded;
 }
 
-// z^w.  Where w is complex or large MPC searches for exact results without end in sight; there the definition
-// exp(w log z) is evaluated, with guard bits for the size of w log z and for cancellation in its parts.
-void power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
-  const auto exponent = [](mpfr_srcptr x) {
-    return mpfr_regular_p(x) ? static_cast<long>(mpfr_get_exp(x)) : 0L;
+long exponent_of(mpfr_srcptr x) {
+  return mpfr_regular_p(x) ? static_cast<long>(mpfr_get_exp(x)) : 0L;
+}
+
+// arg z in units of pi/4 where z lies on an axis or a diagonal.
+std::optional<int> eighths_of_turn(mpc_srcptr z) {
+  const int re = mpfr_sgn(mpc_realref(z));
+  const int im = mpfr_sgn(mpc_imagref(z));
+  if (re != 0 && im != 0 && mpfr_cmpabs(mpc_realref(z), mpc_imagref(z)) != 0) return std::nullopt;
+  if (re > 0) return im;
+  return re == 0 ? 2 * im : im == 0 ? 4 : 3 * im;
+}
+
+bool is_of_modulus_one(mpc_srcptr z) {
+  MpfrValue norm(2 * std::max(mpfr_get_prec(mpc_realref(z)), mpfr_get_prec(mpc_imagref(z))));
+  return mpc_norm(norm, z, nearest) == 0 && mpfr_cmp_ui(norm, 1) == 0;
+}
+
+// |z^w| (cos t + i sin t) where t is the exact multiple Re(w) eighths of pi/4, so that exact zeros are zeros.
+void power_by_turns(mpc_ptr out, mpc_srcptr log_power, mpfr_srcptr re_w, int eighths) {
+  MpfrValue half_turns(mpfr_get_prec(re_w) + 4);
+  mpfr_mul_si(half_turns, re_w, eighths, nearest);
+  mpfr_div_2ui(half_turns, half_turns, 2, nearest);
+  MpfrValue modulus(mpc_get_prec(log_power));
+  MpfrValue direction(mpc_get_prec(log_power));
+  mpfr_exp(modulus, mpc_realref(log_power), nearest);
+  const auto set_part = [&](mpfr_ptr part) {
+    // A modulus beyond the range does not make an exact zero undefined.
+    if (mpfr_zero_p(direction)) {
+      mpfr_set(part, direction, nearest);
+    } else {
+      mpfr_mul(part, modulus, direction, nearest);
+    }
   };
-  const long size = std::max({exponent(mpc_realref(w)), exponent(mpc_imagref(w)), 0L});
+  mpfr_cospi(direction, half_turns, nearest);
+  set_part(mpc_realref(out));
+  mpfr_sinpi(direction, half_turns, nearest);
+  set_part(mpc_imagref(out));
+}
+
+// z^w = exp(w log z).  MPC's own power searches for exact results without end in sight where w is complex or
+// large; it serves where w is a small half integer.
+int power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
+  const long size = std::max({exponent_of(mpc_realref(w)), exponent_of(mpc_imagref(w)), 0L});
   const bool zero = mpfr_zero_p(mpc_realref(z)) && mpfr_zero_p(mpc_imagref(z));
-  // Only z^(n/2) has parts that are exactly zero or representable for the arguments that occur.
   MpfrValue twice(mpfr_get_prec(mpc_realref(w)));
   mpfr_mul_ui(twice, mpc_realref(w), 2, nearest);
   const bool half_integer = mpfr_zero_p(mpc_imagref(w)) && size <= 10 && mpfr_integer_p(twice);
-  if (zero || half_integer || !is_finite(z) || !is_finite(w)) {
-    mpc_pow(out, z, w, rounding);
-    return;
+  if (zero || half_integer || !is_finite(z) || !is_finite(w)) return mpc_pow(out, z, w, rounding);
+
+  // The angle Re(w) arg(z) + Im(w) ln|z|: without its second term it may be an exact multiple of pi/4.
+  const bool one_term = mpfr_zero_p(mpc_imagref(w)) || is_of_modulus_one(z);
+  const auto eighths = one_term ? eighths_of_turn(z) : std::nullopt;
+  const mpfr_prec_t precision = mpfr_get_prec(mpc_realref(out));
+  // Where the angle comes close to a multiple of pi/2 a part is small against the modulus and loses as many
+  // bits; they are added until they suffice.  No part is exactly zero here, but a limit must stand.
+  constexpr long most_guard_bits = 1L << 16U;
+  for (long guard = 160;;) {
+    MpcValue product(precision + size + guard);
+    mpc_log(product, z, rounding);
+    mpc_mul(product, product, w, rounding);
+    if (eighths) {
+      power_by_turns(out, product, mpc_realref(w), *eighths);
+      return both_rounded;
+    }
+    mpc_exp(out, product, rounding);
+    mpfr_srcptr re = mpc_realref(out);
+    mpfr_srcptr im = mpc_imagref(out);
+    if (mpfr_regular_p(re) == 0 || mpfr_regular_p(im) == 0) return both_rounded;
+    const long lost = std::abs(exponent_of(re) - exponent_of(im));
+    // |log z| needs up to 12 bits before its point for binary64's exponents, 64 for any.
+    if (lost + 80 <= guard || guard >= most_guard_bits) return both_rounded;
+    guard = std::min(lost + 160, most_guard_bits);
   }
-  MpcValue product(mpfr_get_prec(mpc_realref(out)) + size + 160);
-  mpc_log(product, z, rounding);
-  mpc_mul(product, product, w, rounding);
-  mpc_exp(out, product, rounding);
 }
 
 }  // namespace
 
-void exact_value(const FunctionInfo& f, std::span<const MpfrValue> a, std::span<MpfrValue> out) {
+ExactParts exact_value(const FunctionInfo& f, std::span<const MpfrValue> a, std::span<MpfrValue> out) {
   const WideExponentRange wide;
   switch (f.id) {
 #define REAL1(name, d0, hard, call) \
   case FunctionId::name:            \
-    call(out[0], a[0], nearest);    \
-    break;
+    return {call(out[0], a[0], nearest) == 0, false};
 #define REAL2(name, d0, d1, hard, call) \
   case FunctionId::name:                \
-    call(out[0], a[0], a[1], nearest);  \
-    break;
+    return {call(out[0], a[0], a[1], nearest) == 0, false};
 #define OPER2(name, op, d0, d1, hard, call) REAL2(name, d0, d1, hard, call)
-#define REAL3(name, d0, d1, d2, hard, call)  \
-  case FunctionId::name:                     \
-    call(out[0], a[0], a[1], a[2], nearest); \
-    break;
-#define COMPLEX1(token, callee, call)    \
-  case FunctionId::token: {              \
-    const ComplexArgument z(a[0], a[1]); \
-    ComplexOut w(out);                   \
-    call(w.value, z.value, MPC_RNDNN);   \
-    break;                               \
+#define REAL3(name, d0, d1, d2, hard, call) \
+  case FunctionId::name:                    \
+    return {call(out[0], a[0], a[1], a[2], nearest) == 0, false};
+#define COMPLEX1(token, callee, call)                      \
+  case FunctionId::token: {                                \
+    const ComplexArgument z(a[0], a[1]);                   \
+    ComplexOut w(out);                                     \
+    return exact_parts(call(w.value, z.value, MPC_RNDNN)); \
   }
-#define COMPLEX2(token, callee, call)           \
-  case FunctionId::token: {                     \
-    const ComplexArgument z(a[0], a[1]);        \
-    const ComplexArgument y(a[2], a[3]);        \
-    ComplexOut w(out);                          \
-    call(w.value, z.value, y.value, MPC_RNDNN); \
-    break;                                      \
+#define COMPLEX2(token, callee, call)                               \
+  case FunctionId::token: {                                         \
+    const ComplexArgument z(a[0], a[1]);                            \
+    const ComplexArgument y(a[2], a[3]);                            \
+    ComplexOut w(out);                                              \
+    return exact_parts(call(w.value, z.value, y.value, MPC_RNDNN)); \
   }
-#define COMPLEX_REAL(token, callee, call) \
-  case FunctionId::token: {               \
-    const ComplexArgument z(a[0], a[1]);  \
-    call(out[0], z.value, nearest);       \
-    break;                                \
+#define COMPLEX_REAL(token, callee, call)                \
+  case FunctionId::token: {                              \
+    const ComplexArgument z(a[0], a[1]);                 \
+    return {call(out[0], z.value, nearest) == 0, false}; \
   }
 #define POLAR(token, callee) \
   case FunctionId::token:    \
     polar(a, out);           \
-    break;
+    return {};
 #define SPECIAL1(token, d0) \
   case FunctionId::token:   \
     oracle::token(a, out);  \
-    break;
+    return {};
 #define SPECIAL2(token, d0, d1, hard) SPECIAL1(token, d0)
 #define SPECIAL3(token, d0, d1, d2) SPECIAL1(token, d0)
 #define SPECIAL4_COMPLEX(token, d0, d1, d2, d3) SPECIAL1(token, d0)
 #include "reference/functions.def"
   }
+  return {};
 }
 
 }  // namespace ulpgate

@@ -151,5 +151,25 @@ TEST(Condition, MatchesClosedForms) {
   EXPECT_EQ(condition(FunctionId::acos, {"1"}), HUGE_VAL) << "x = 1: one-sided, f is zero";
 }
 
+TEST(Oracle, ComplexPowersNextToTheAxesKeepTheirSmallPart) {
+  // (-1)^(1 + i e) = -exp(-pi e), exactly real.
+  const auto turn = exact(FunctionId::cpow, {"-1", "0", "1", "0x1p-1074"});
+  EXPECT_TRUE(mpfr_zero_p(turn[1].get()));
+  EXPECT_LT(mpfr_sgn(turn[0].get()), 0);
+  // i^(2^40) = 1.
+  const auto whole = exact(FunctionId::cpow, {"0", "1", "0x1p+40", "0"});
+  EXPECT_TRUE(mpfr_zero_p(whole[1].get()));
+  EXPECT_EQ(mpfr_cmp_ui(whole[0].get(), 1), 0);
+  // (-x)^(1 + i e) with x = 1 + 2^-52: the imaginary part is -x sin(e ln x), 1126 bits below the modulus.
+  const auto close = exact(FunctionId::cpow, {"-0x1.0000000000001p+0", "0", "1", "0x1p-1074"});
+  const auto x = vector({"0x1.0000000000001p+0"});
+  MpfrValue want(bits);
+  mpfr_log(want, x[0], MPFR_RNDN);
+  mpfr_mul_2si(want, want, -1074, MPFR_RNDN);
+  mpfr_mul(want, want, x[0], MPFR_RNDN);
+  mpfr_neg(want, want, MPFR_RNDN);
+  expect_close(close[1], want, 250, "cancelling angle");
+}
+
 }  // namespace
 }  // namespace ulpgate

@@ -25,7 +25,7 @@ struct MathOptions {
   unsigned threads = 0;
   std::string shard = "0/1";
   std::string out;
-  std::string reference = "full";
+  std::string reference = "screened";
   std::string worst_cases;
   std::string timing = "auto";
   bool overwrite = false;
@@ -107,7 +107,8 @@ ExitCode run_math(const MathOptions& o) {
   make_directory(out);
   guard_output(out, plan, o.overwrite);
   const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  RunResult result = run_plan(plan, shard, threads);
+  RunResult result =
+      run_plan(plan, shard, threads, o.reference == "full" ? ReferenceMode::full : ReferenceMode::screened);
   const std::string text = records_text(result.records);
   write_file(out / "math.jsonl", text);
   const Json context = make_context(plan, {shard.text()}, threads, result.complete && shard.count == 1);
@@ -143,9 +144,12 @@ void add_math_command(CLI::App& app, Action& action) {
   math->add_option("--shard", o->shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")
       ->capture_default_str();
   math->add_option("--out", o->out, "directory of the records")->required();
-  math->add_option("--reference", o->reference, "full: MPFR at the precision of RealHP<4>")
+  math->add_option("--reference", o->reference,
+                   "full: MPFR at the precision of RealHP<4> for every sample; screened: a cheaper stage "
+                   "first, the same "
+                   "records")
       ->capture_default_str()
-      ->check(CLI::IsMember({"full"}));
+      ->check(CLI::IsMember({"screened", "full"}));
   math->add_option("--worst-cases", o->worst_cases,
                    "directory of worst cases (default ci/worst_cases, if it exists)");
   math->add_option("--timing", o->timing, "write timing.jsonl: auto (unless a shard), on, off")

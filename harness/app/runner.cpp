@@ -4,12 +4,15 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <thread>
 
 #include "harness/app/crash_report.hpp"
+#include "harness/app/failure.hpp"
 #include "harness/app/progress.hpp"
+#include "harness/core/reference_disagreement.hpp"
 
 namespace ulpgate::app {
 
@@ -48,7 +51,7 @@ double cost(const Plan& plan, const WorkUnit& u) {
 
 }  // namespace
 
-RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads) {
+RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode) {
   std::vector<WorkUnit> mine;
   double total = 0;
   for (std::size_t i = shard.index; i < plan.units().size(); i += shard.count) {
@@ -71,14 +74,25 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads) {
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   double done = 0;
+  std::exception_ptr failure;  // of the first unit that failed; the others end
+  const auto evaluate = [&](const WorkUnit& unit, const PlanRow& row) {
+    try {
+      return row.engine->evaluate(row.function, row.source, unit.first, unit.last, mode,
+                                  *rows[unit.row].hint);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = mine.size();
+      return std::vector<Summary>();
+    }
+  };
   const auto work = [&] {
     const MpfrThread mpfr;
     for (std::size_t i = next++; i < mine.size() && !interrupted; i = next++) {
       const WorkUnit& unit = mine[i];
       const PlanRow& row = plan.rows()[unit.row];
       const CrashPlace place(row.function.name, row.engine->descriptor().token, name_of(row.source.stratum));
-      const auto summaries =
-          row.engine->evaluate(row.function, row.source, unit.first, unit.last, *rows[unit.row].hint);
+      const auto summaries = evaluate(unit, row);
       const std::lock_guard lock(mutex);
       for (std::size_t part = 0; part < summaries.size(); ++part)
         rows[unit.row].summaries[part].merge(summaries[part]);
@@ -90,6 +104,13 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads) {
   for (unsigned t = 1; t < threads; ++t) pool.emplace_back(work);
   work();
   for (auto& t : pool) t.join();
+  if (failure) {
+    try {
+      std::rethrow_exception(failure);
+    } catch (const ReferenceDisagreement& e) {
+      throw Failure(ExitCode::regression, e.what());
+    }
+  }
 
   RunResult result;
   result.complete = !interrupted;

@@ -15,6 +15,6 @@ struct RunResult {
 
 // Runs the units of the shard (unit i belongs to shard i mod count).  The result does not depend on
 // `threads`.
-[[nodiscard]] RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads);
+[[nodiscard]] RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode);
 
 }  // namespace ulpgate::app

@@ -1,4 +1,5 @@
-// Benchmarks of the engine: a bare evaluation against a judged one, per type, for a few functions.
+// Benchmarks of the engine: a bare evaluation against a judged one, screened and full, per type, for a few
+// functions.
 #include <benchmark/benchmark.h>
 
 #include "harness/core/type_engine.hpp"
@@ -13,11 +14,12 @@ void bare(benchmark::State& state, const ulpgate::TypeEngine* engine, ulpgate::F
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch));
 }
 
-void judged(benchmark::State& state, const ulpgate::TypeEngine* engine, ulpgate::FunctionInfo f) {
+void judged(benchmark::State& state, const ulpgate::TypeEngine* engine, ulpgate::FunctionInfo f,
+            ulpgate::ReferenceMode mode) {
   ulpgate::RowHint hint(f.parts);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        engine->evaluate(f, {ulpgate::Stratum::uniform, 1, batch, nullptr}, 0, batch, hint));
+        engine->evaluate(f, {ulpgate::Stratum::uniform, 1, batch, nullptr}, 0, batch, mode, hint));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch));
 }
@@ -29,7 +31,10 @@ void judged(benchmark::State& state, const ulpgate::TypeEngine* engine, ulpgate:
       const auto& f = ulpgate::info_of(id);
       const std::string name = std::string(f.name) + "/" + engine->descriptor().token;
       benchmark::RegisterBenchmark(("bare/" + name).c_str(), bare, engine.get(), f);
-      benchmark::RegisterBenchmark(("judged/" + name).c_str(), judged, engine.get(), f);
+      benchmark::RegisterBenchmark(("screened/" + name).c_str(), judged, engine.get(), f,
+                                   ulpgate::ReferenceMode::screened);
+      benchmark::RegisterBenchmark(("full/" + name).c_str(), judged, engine.get(), f,
+                                   ulpgate::ReferenceMode::full);
     }
   }
   return true;

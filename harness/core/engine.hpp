@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "harness/core/judging.hpp"
 #include "harness/core/oracle_defects.hpp"
+#include "harness/core/screened_judging.hpp"
 #include "harness/core/type_engine.hpp"
 #include "kernels/math/function_table.hpp"
 #include "reference/condition.hpp"
@@ -29,12 +29,13 @@ class Engine final : public TypeEngine {
   [[nodiscard]] const RealDescriptor& descriptor() const override { return descriptor_; }
 
   [[nodiscard]] std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
-                                              std::uint64_t first, std::uint64_t last,
+                                              std::uint64_t first, std::uint64_t last, ReferenceMode mode,
                                               RowHint& hint) const override {
     constexpr std::size_t batch_size = 256;
     const auto arity = static_cast<std::size_t>(f.arity);
     const auto parts = static_cast<std::size_t>(f.parts);
     const Arguments<Real> arguments(f, source);
+    const Judging<Real>& judging = judging_for(mode);
     std::vector<Summary> summaries(parts);
     std::vector<Real> args(batch_size * arity);
     std::vector<Real> results(batch_size * parts);
@@ -45,11 +46,12 @@ class Engine final : public TypeEngine {
       for (std::size_t i = 0; i < n; ++i) arguments.make(k + i, &args[i * arity]);
       std::fill(threw.begin(), threw.end(), std::uint8_t{0});
       function(f)(args.data(), results.data(), threw.data(), n);
-      const Batch<Real> batch{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}};
-      judging_.judge(batch, judgements);
+      const Batch<Real> batch{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}, k};
+      judging.judge(batch, judgements);
       for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < parts; ++j) {
-          const Judgement& judgement = judgements[i * parts + j];
+          Judgement& judgement = judgements[i * parts + j];
+          judgement.error = recorded(judgement.error);
           summaries[j].add(judgement, k + i);
           update_condition(f, &args[i * arity], static_cast<int>(j), judgement, summaries[j],
                            hint.error_over_condition[j]);
@@ -98,6 +100,11 @@ class Engine final : public TypeEngine {
     std::vector<Real> results_;
     std::vector<std::uint8_t> threw_;
   };
+
+  [[nodiscard]] const Judging<Real>& judging_for(ReferenceMode mode) const {
+    if (mode == ReferenceMode::screened) return screened_;
+    return full_;
+  }
 
   [[nodiscard]] BatchFunction<Real> function(const FunctionInfo& f) const {
     return functions_[static_cast<std::size_t>(f.id)];
@@ -174,7 +181,7 @@ class Engine final : public TypeEngine {
     std::uint8_t threw = 0;
     function(f)(args.data(), results.data(), &threw, 1);
     std::vector<Judgement> judgements(parts);
-    judging_.judge({f, args, results, {&threw, 1}}, judgements);
+    full_.judge({f, args, results, {&threw, 1}}, judgements);
     const auto values = exact_arguments(f, args.data());
     std::vector<MpfrValue> exact;
     for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(descriptor_.reference_bits);
@@ -198,7 +205,8 @@ class Engine final : public TypeEngine {
   RealDescriptor descriptor_;
   FunctionTable<Real> functions_;
   const FunctionTable<Reference>& family_;
-  FullJudging<Real> judging_;
+  FullJudging<Real> full_;
+  ScreenedJudging<Real> screened_;
 };
 
 }  // namespace ulpgate

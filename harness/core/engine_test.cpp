@@ -25,7 +25,7 @@ Summary run(const TypeEngine& engine, FunctionId id, Stratum stratum, std::uint6
     source.count = list.size();
     source.list = &list;
   }
-  return engine.evaluate(info_of(id), source, 0, source.count, hint)[0];
+  return engine.evaluate(info_of(id), source, 0, source.count, ReferenceMode::screened, hint)[0];
 }
 
 TEST(Mutation, OneWrongCoefficientOfExpIsCaught) {
@@ -61,7 +61,8 @@ TEST(Coverage, EveryFunctionEvaluatesInEveryTypeBuilt) {
   for (const auto& engine : all_engines()) {
     for (const auto& f : all_functions()) {
       RowHint hint(f.parts);
-      const auto summaries = engine->evaluate(f, {Stratum::uniform, 1, 3, nullptr}, 0, 3, hint);
+      const auto summaries =
+          engine->evaluate(f, {Stratum::uniform, 1, 3, nullptr}, 0, 3, ReferenceMode::screened, hint);
       ASSERT_EQ(summaries.size(), static_cast<std::size_t>(f.parts));
       EXPECT_EQ(summaries[0].samples, 3U) << f.name << " " << engine->descriptor().token;
     }

@@ -47,6 +47,12 @@ class TimedBatch {
   virtual void run(std::size_t count) = 0;
 };
 
+// What results are held against; the records are the same for both.
+enum class ReferenceMode {
+  screened,  // MPFR a little above the type's precision decides, the rest climbs
+  full,      // MPFR at the precision of RealHP<4> for every sample
+};
+
 class TypeEngine {
  public:
   TypeEngine() = default;
@@ -56,10 +62,10 @@ class TypeEngine {
 
   [[nodiscard]] virtual const RealDescriptor& descriptor() const = 0;
 
-  // Judges points first..last-1 of a row; one summary per part.
+  // Judges points first..last-1 of a row; one summary per part.  Throws ReferenceDisagreement.
   [[nodiscard]] virtual std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
                                                       std::uint64_t first, std::uint64_t last,
-                                                      RowHint& hint) const = 0;
+                                                      ReferenceMode mode, RowHint& hint) const = 0;
 
   // The point with index k of a row, and the point at arguments given as exact values of the type.
   [[nodiscard]] virtual Point point(const FunctionInfo& f, const StratumSource& source,
