@@ -159,6 +159,13 @@ def test_records_do_not_depend_on_threads_or_shards(tmp_path):
     assert code == 2 and "twice" in err
 
 
+def test_the_screened_reference_gives_the_records_of_the_full_one(tmp_path):
+    words = ["--samples", "300", "--types", "double,mpfr62"]
+    words += ["--functions", "sin,pow,lgamma,cpow,add"]
+    full = math(tmp_path / "full", *words, "--reference", "full")
+    assert math(tmp_path / "screened", *words, "--reference", "screened") == full
+
+
 def test_another_seed_gives_another_plan_and_is_not_written_over(tmp_path):
     size = ["--types", "double", "--functions", "sin", "--samples", "100"]
     math(tmp_path / "a", "--seed", "1", *size)
