@@ -29,9 +29,9 @@ std::string plan_text(const PlanRequest& r) {
   std::vector<std::string_view> strata;
   for (const auto id : r.functions) functions.push_back(info_of(id).name);
   for (const auto s : r.strata) strata.push_back(name_of(s));
-  // "arguments 1" is the version of the rules that make arguments: raise it when they change.
+  // Versions of the rules that make arguments and that record errors: raise them when they change.
   return fmt::format(
-      "ulpgate math plan\narguments 1\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata {}\nfunctions {}\n"
+      "ulpgate math plan\narguments 1\nerrors 2\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata {}\nfunctions {}\n"
       "reference full\nworst_cases {:016x}\n",
       unit_size, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","),
       fmt::join(functions, ","), fnv1a(r.worst_cases_text));
