@@ -66,6 +66,56 @@ void print_text(const FunctionInfo& f, const TypeEngine& engine, const Point& po
   }
 }
 
+Json quantity_json(const dem::Quantity& q, const QuantityPoint& p) {
+  const bool finite = p.judgement.outcome == Outcome::finite;
+  return {{"quantity", q.name},
+          {"value", p.got_hex},
+          {"reference", p.exact_decimal},
+          {"ulp_error", finite ? number_or_text(p.judgement.error.value) : Json(nullptr)},
+          {"float_distance", finite ? number_or_text(p.judgement.distance) : Json(nullptr)},
+          {"normwise_error", number_or_text(p.normwise_error)},
+          {"condition", signed_number(p.condition)},
+          {"outcome", name_of(p.judgement.outcome)}};
+}
+
+// A DEM kernel takes the components of its inputs one after the other.
+ExitCode run_at_kernel(const dem::KernelInfo& kernel, const std::vector<std::string>& plain, bool json) {
+  const KernelEngine& engine = *find_kernel_engine(type_or_fail(plain[1]).descriptor().token);
+  if (plain.size() != kernel.input_components() + 2) {
+    std::string inputs;
+    for (const auto f : kernel.inputs) inputs += fmt::format(" {}[{}]", name_of(f), dem::components_of(f));
+    throw Failure(ExitCode::bad_input, fmt::format("{} takes {} numbers ({} ), found {}", kernel.name,
+                                                   kernel.input_components(), inputs, plain.size() - 2));
+  }
+  std::vector<MpfrValue> inputs;
+  for (std::size_t i = 2; i < plain.size(); ++i)
+    inputs.push_back(parse_number(engine.descriptor(), plain[i], fmt::format("input {}", i - 1)));
+  const KernelPoint point = engine.point(kernel, inputs);
+  Json rows = Json::array();
+  if (!json) fmt::print("{} {}\n", kernel.name, engine.descriptor().token);
+  for (std::size_t q = 0; q < kernel.outputs.size(); ++q) {
+    const QuantityPoint& p = point.quantities[q];
+    rows.push_back(quantity_json(kernel.outputs[q], p));
+    if (json) continue;
+    const bool finite = p.judgement.outcome == Outcome::finite;
+    fmt::print(" {}\n", kernel.outputs[q].name);
+    for (std::size_t i = 0; i < p.got_hex.size(); ++i)
+      fmt::print("  {:<19} {}  (exact {})\n", "value", p.got_hex[i], p.exact_decimal[i]);
+    fmt::print("  {:<19} {}\n", "ULP error", finite ? shown(p.judgement.error.value, 6) : "-");
+    fmt::print("  {:<19} {} roundings\n", "normwise error", shown(p.normwise_error, 6));
+    fmt::print("  {:<19} {}\n", "condition number", shown(p.condition, 6));
+    fmt::print("  {:<19} {}\n", "outcome", name_of(p.judgement.outcome));
+  }
+  if (json) {
+    const Json j = {{"kernel", kernel.name},
+                    {"type", engine.descriptor().token},
+                    {"inputs", point.inputs_hex},
+                    {"quantities", rows}};
+    fmt::print("{}\n", j.dump());
+  }
+  return ExitCode::pass;
+}
+
 ExitCode run_at(const std::vector<std::string>& words) {
   std::vector<std::string> plain;
   bool json = false;
@@ -79,6 +129,7 @@ ExitCode run_at(const std::vector<std::string>& words) {
     }
   }
   if (plain.size() < 2) throw Failure(ExitCode::bad_input, "usage: ulpgate at FUNCTION TYPE X... [--json]");
+  if (const auto* kernel = dem::find_kernel(plain[0])) return run_at_kernel(*kernel, plain, json);
   const FunctionInfo& f = function_or_fail(plain[0]);
   const TypeEngine& engine = type_or_fail(plain[1]);
   if (plain.size() != static_cast<std::size_t>(f.arity) + 2) {
@@ -109,7 +160,7 @@ void add_at_command(CLI::App& app, Action& action) {
   auto* at =
       app.add_subcommand("at", "Everything known about one point: value, exact value, ULP error, condition");
   at->footer(
-      "ulpgate at FUNCTION TYPE X... [--json]\n"
+      "ulpgate at FUNCTION|KERNEL TYPE X... [--json]\n"
       "X is decimal, hexfloat (-0x1.5p+2), inf or nan, rounded once to TYPE; a complex argument is two "
       "numbers.\n"
       "--json prints the keys function type args value reference ulp_error float_distance condition "

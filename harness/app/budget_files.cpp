@@ -9,6 +9,7 @@
 
 #include "harness/app/failure.hpp"
 #include "harness/app/files.hpp"
+#include "harness/core/kernel_strata.hpp"
 
 namespace ulpgate::app {
 
@@ -24,23 +25,33 @@ std::uint64_t count_of(const std::string& file, const toml::node& node, std::str
   return static_cast<std::uint64_t>(*n);
 }
 
+// { stratum = limit, ... }
+std::map<std::string, double> parse_limits(const std::string& file, const toml::node& node,
+                                           std::string_view name, std::string_view key) {
+  const auto* table = node.as_table();
+  if (table == nullptr)
+    bad(file, node, fmt::format("[{}] {} must be a table {{ stratum = limit }}", name, key));
+  std::map<std::string, double> limits;
+  for (const auto& [stratum, value] : *table) {
+    const auto limit = value.value<double>();
+    if (!find_stratum(stratum.str()) && !find_state_stratum(stratum.str()))
+      bad(file, value, fmt::format("[{}] {}: no stratum '{}'", name, key, stratum.str()));
+    if (!limit || std::isnan(*limit) || *limit < 0)
+      bad(file, value, fmt::format("[{}] {} of {} must be a number >= 0", name, key, stratum.str()));
+    limits[std::string(stratum.str())] = *limit;
+  }
+  return limits;
+}
+
 Budget parse_row(const std::string& file, const toml::table& row, std::string_view name) {
   Budget budget;
   bool has_limit = false;
   for (const auto& [key, node] : row) {
     if (key == "max_ulp") {
-      const auto* limits = node.as_table();
-      if (limits == nullptr)
-        bad(file, node, fmt::format("[{}] max_ulp must be a table {{ stratum = limit }}", name));
-      for (const auto& [stratum, value] : *limits) {
-        const auto limit = value.value<double>();
-        if (!find_stratum(stratum.str()))
-          bad(file, value, fmt::format("[{}] max_ulp: no stratum '{}'", name, stratum.str()));
-        if (!limit || std::isnan(*limit) || *limit < 0)
-          bad(file, value, fmt::format("[{}] max_ulp of {} must be a number >= 0", name, stratum.str()));
-        budget.max_ulp[std::string(stratum.str())] = *limit;
-      }
+      budget.max_ulp = parse_limits(file, node, name, key.str());
       has_limit = true;
+    } else if (key == "over_condition") {
+      budget.over_condition = parse_limits(file, node, name, key.str());
     } else if (key == "reason" && node.is_string()) {
       budget.reason = *node.value<std::string>();
     } else if (key == "mismatch" && node.is_table()) {
@@ -49,7 +60,8 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
       }
     } else {
       bad(file, node,
-          fmt::format("[{}] has no key '{}' of this kind (max_ulp, mismatch, reason)", name, key.str()));
+          fmt::format("[{}] has no key '{}' of this kind (max_ulp, over_condition, mismatch, reason)", name,
+                      key.str()));
     }
   }
   if (!has_limit) bad(file, row, fmt::format("[{}] lacks max_ulp", name));
@@ -62,23 +74,28 @@ std::string number(double x) {
                                           : fmt::format("{}", x);
 }
 
+std::string limits_text(std::string_view key, const std::map<std::string, double>& limits) {
+  std::string text = fmt::format("{} = {{", key);
+  const char* separator = " ";
+  for (const auto& [stratum, limit] : limits) {
+    text += fmt::format("{}{} = {}", separator, stratum, number(limit));
+    separator = ", ";
+  }
+  return text + " }\n";
+}
+
 std::string file_text(const std::string& token, const TypeBudgets& type) {
   std::string text = fmt::format(
-      "# Budgets of {}: the largest error in ULP and the accepted mismatches of every function, by stratum.\n"
-      "# Written by `ulpgate gate DIR --budgets ci/budgets --update`; raised only with `--reason`.\n"
+      "# Budgets of {}: the largest error in ULP and the accepted mismatches of every row, by stratum.\n"
+      "# Written by `ulpgate gate DIR --budgets DIR --update`; raised only with `--reason`.\n"
       "[plan]\nsamples = {}\nseed = {}\n",
       token, type.samples, type.seed);
   for (const auto& [row, b] : type.rows) {
-    text += fmt::format("\n[budget.\"{}\"]\nmax_ulp = {{", row);
-    const char* separator = " ";
-    for (const auto& [stratum, limit] : b.max_ulp) {
-      text += fmt::format("{}{} = {}", separator, stratum, number(limit));
-      separator = ", ";
-    }
-    text += " }\n";
+    text += fmt::format("\n[budget.\"{}\"]\n", row) + limits_text("max_ulp", b.max_ulp);
+    if (!b.over_condition.empty()) text += limits_text("over_condition", b.over_condition);
     if (!b.mismatch.empty()) {
       text += "mismatch = {";
-      separator = " ";
+      const char* separator = " ";
       for (const auto& [key, count] : b.mismatch) {
         text += fmt::format("{}\"{}\" = {}", separator, key, count);
         separator = ", ";

@@ -46,20 +46,12 @@ Json type_rows(const std::vector<std::string>& tokens) {
   return rows;
 }
 
-Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads, bool complete) {
-  Json functions = Json::array();
-  for (const auto id : plan.request().functions) {
-    const FunctionInfo& f = info_of(id);
-    Json parts = Json::array();
-    for (int i = 0; i < f.parts; ++i) parts.push_back(part_name(f, i));
-    Json domain = Json::array();
-    for (int i = 0; i < f.arity; ++i) domain.push_back(name_of(f.domain[static_cast<std::size_t>(i)]));
-    functions.push_back({{"name", f.name},
-                         {"class", name_of(f.function_class)},
-                         {"arity", f.arity},
-                         {"parts", parts},
-                         {"domain", domain}});
-  }
+namespace {
+
+// What every kind of run says about itself; `columns` are the keys of its own.
+template <class AnyPlan>
+Json context_of(const AnyPlan& plan, const std::vector<std::string>& shards, unsigned threads,
+                bool complete) {
   Json strata = Json::array();
   for (const auto s : plan.request().strata) strata.push_back(name_of(s));
   Json c;
@@ -84,7 +76,44 @@ Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsi
   c["threads"] = threads;
   c["complete"] = complete;
   c["types"] = type_rows(plan.request().types);
+  return c;
+}
+
+}  // namespace
+
+Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads, bool complete) {
+  Json functions = Json::array();
+  for (const auto id : plan.request().functions) {
+    const FunctionInfo& f = info_of(id);
+    Json parts = Json::array();
+    for (int i = 0; i < f.parts; ++i) parts.push_back(part_name(f, i));
+    Json domain = Json::array();
+    for (int i = 0; i < f.arity; ++i) domain.push_back(name_of(f.domain[static_cast<std::size_t>(i)]));
+    functions.push_back({{"name", f.name},
+                         {"class", name_of(f.function_class)},
+                         {"arity", f.arity},
+                         {"parts", parts},
+                         {"domain", domain}});
+  }
+  Json c = context_of(plan, shards, threads, complete);
   c["functions"] = functions;
+  return c;
+}
+
+Json make_context(const KernelPlan& plan, const std::vector<std::string>& shards, unsigned threads,
+                  bool complete) {
+  Json kernels = Json::array();
+  for (const auto id : plan.request().kernels) {
+    const dem::KernelInfo& k = dem::info_of(id);
+    Json inputs = Json::array();
+    for (const auto f : k.inputs)
+      inputs.push_back({{"name", name_of(f)}, {"components", dem::components_of(f)}});
+    Json outputs = Json::array();
+    for (const auto& q : k.outputs) outputs.push_back({{"name", q.name}, {"components", q.components}});
+    kernels.push_back({{"name", k.name}, {"inputs", inputs}, {"outputs", outputs}});
+  }
+  Json c = context_of(plan, shards, threads, complete);
+  c["kernels"] = kernels;
   return c;
 }
 

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "harness/app/records.hpp"
+#include "harness/core/kernel_plan.hpp"
 #include "harness/core/plan.hpp"
 
 namespace ulpgate::app {
 
 [[nodiscard]] Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads,
                                 bool complete);
+[[nodiscard]] Json make_context(const KernelPlan& plan, const std::vector<std::string>& shards,
+                                unsigned threads, bool complete);
 [[nodiscard]] Json type_rows(const std::vector<std::string>& tokens);
 // Throws a Failure unless rounding is to nearest and subnormals are neither flushed nor taken as zero.
 void assert_floating_point_environment();

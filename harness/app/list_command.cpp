@@ -50,13 +50,35 @@ void list_types(bool json) {
   }
 }
 
+template <class Strata>
+void print_strata(const Strata& strata, const char* what, bool json, Json& rows) {
+  for (const auto& s : strata) {
+    if (json) {
+      rows.push_back({{"of", what}, {"stratum", s.name}, {"description", s.description}});
+    } else {
+      fmt::print("{:<8} {:<11} {}\n", what, s.name, s.description);
+    }
+  }
+}
+
 void list_strata(bool json) {
   Json rows = Json::array();
-  for (const auto& s : all_strata) {
+  print_strata(all_strata, "math", json, rows);
+  print_strata(all_state_strata, "kernels", json, rows);
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
+void list_kernels(bool json) {
+  Json rows = Json::array();
+  for (const auto& k : dem::all_kernels()) {
+    std::string inputs;
+    std::string outputs;
+    for (const auto f : k.inputs) inputs += (inputs.empty() ? "" : ",") + std::string(name_of(f));
+    for (const auto& q : k.outputs) outputs += (outputs.empty() ? "" : ",") + std::string(q.name);
     if (json) {
-      rows.push_back({{"stratum", s.name}, {"description", s.description}});
+      rows.push_back({{"kernel", k.name}, {"inputs", inputs}, {"outputs", outputs}});
     } else {
-      fmt::print("{:<11} {}\n", s.name, s.description);
+      fmt::print("{:<25} ({}) -> {}\n", k.name, inputs, outputs);
     }
   }
   if (json) fmt::print("{}\n", rows.dump(2));
@@ -65,18 +87,19 @@ void list_strata(bool json) {
 }  // namespace
 
 void add_list_command(CLI::App& app, Action& action) {
-  auto* list = app.add_subcommand("list", "List functions, types or strata");
+  auto* list = app.add_subcommand("list", "List functions, types, strata or kernels");
   auto what = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  list->add_option("what", *what, "functions, types or strata")
+  list->add_option("what", *what, "functions, types, strata or kernels")
       ->required()
-      ->check(CLI::IsMember({"functions", "types", "strata"}));
+      ->check(CLI::IsMember({"functions", "types", "strata", "kernels"}));
   list->add_flag("--json", *json, "Print JSON");
   list->callback([=, &action] {
     action = [=] {
       if (*what == "functions") list_functions(*json);
       if (*what == "types") list_types(*json);
       if (*what == "strata") list_strata(*json);
+      if (*what == "kernels") list_kernels(*json);
       return ExitCode::pass;
     };
   });

@@ -32,24 +32,6 @@ struct MathOptions {
   bool json = false;
 };
 
-// Records of another plan are somebody's results: they are not written over unless asked.
-void guard_output(const std::filesystem::path& out, const Plan& plan, bool overwrite) {
-  const auto context = out / "context.json";
-  if (overwrite || !std::filesystem::exists(context)) return;
-  std::string there;
-  try {
-    there = Json::parse(read_file(context)).value("plan", "");
-  } catch (const Json::exception&) {
-    there = "unreadable";
-  }
-  if (there != plan.hash()) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{} holds the records of another plan ({}); choose another --out or "
-                              "give --overwrite",
-                              out.string(), there));
-  }
-}
-
 Plan make_plan(const MathOptions& o) {
   PlanRequest request;
   request.functions = select_functions(o.functions);
@@ -105,12 +87,12 @@ ExitCode run_math(const MathOptions& o) {
   const Plan plan = make_plan(o);
   const std::filesystem::path out = o.out;
   make_directory(out);
-  guard_output(out, plan, o.overwrite);
+  guard_output(out, plan.hash(), o.overwrite);
   const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
   RunResult result =
       run_plan(plan, shard, threads, o.reference == "full" ? ReferenceMode::full : ReferenceMode::screened);
   const std::string text = records_text(result.records);
-  write_file(out / "math.jsonl", text);
+  write_file(out / math_records_file, text);
   const Json context = make_context(plan, {shard.text()}, threads, result.complete && shard.count == 1);
   write_file(out / "context.json", context.dump(2) + "\n");
   const bool timed = o.timing == "on" || (o.timing == "auto" && shard.count == 1);
@@ -120,7 +102,7 @@ ExitCode run_math(const MathOptions& o) {
     throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}", out.string()));
   }
   fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(),
-             (out / "math.jsonl").string(), plan.hash());
+             (out / math_records_file).string(), plan.hash());
   return report_oracles(result.records);
 }
 

@@ -17,10 +17,14 @@ ExitCode run_merge(const std::vector<std::string>& directories, const std::strin
   std::map<std::string, RowRecord> rows;
   std::set<std::string> shards;
   Json context;
+  std::string file;
   std::uint64_t shard_count = 0;
   for (const auto& directory : directories) {
     const RecordSet set = read_records(directory);
-    if (context.is_null()) context = set.context;
+    if (context.is_null()) {
+      context = set.context;
+      file = set.file;
+    }
     if (set.context.value("plan", "") != context.value("plan", "")) {
       throw Failure(ExitCode::bad_input, fmt::format("{}: plan {} is not that of {} ({})", directory,
                                                      set.context.value("plan", ""), directories.front(),
@@ -53,7 +57,7 @@ ExitCode run_merge(const std::vector<std::string>& directories, const std::strin
   context["shards"] = std::vector<std::string>(shards.begin(), shards.end());
   context["complete"] = complete;
   make_directory(out);
-  write_file(std::filesystem::path(out) / "math.jsonl", records_text(std::move(records)));
+  write_file(std::filesystem::path(out) / file, records_text(std::move(records)));
   write_file(std::filesystem::path(out) / "context.json", context.dump(2) + "\n");
   if (!complete) {
     throw Failure(ExitCode::incomplete,

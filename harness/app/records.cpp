@@ -77,12 +77,21 @@ std::string to_json_line(const RowRecord& r) {
   j["mismatch"] = mismatch;
   j["mismatch_first"] = first;
   j["mismatch_index"] = first_index;
-  j["max_ulp_over_condition"] = number_or_text(s.max_error_over_condition);
-  j["oracle"] = {{"compared", s.oracle.compared},
-                 {"disagreed", s.oracle.disagreed},
-                 {"max_difference_ulp", number_or_text(s.oracle.difference.value)},
-                 {"argmax", r.points.oracle_argmax},
-                 {"argmax_index", index_to(s.oracle.difference.index)}};
+  if (r.function_class == kernel_class) {
+    j["max_normwise"] = number_or_text(s.normwise.value);
+    j["normwise_argmax"] = r.points.normwise_argmax;
+    j["normwise_index"] = index_to(s.normwise.index);
+    j["condition"] = number_or_text(r.points.condition);
+    j["max_normwise_over_condition"] = number_or_text(s.max_error_over_condition);
+    j["verdict"] = is_stable(s) ? "stable" : "unstable";
+  } else {
+    j["max_ulp_over_condition"] = number_or_text(s.max_error_over_condition);
+    j["oracle"] = {{"compared", s.oracle.compared},
+                   {"disagreed", s.oracle.disagreed},
+                   {"max_difference_ulp", number_or_text(s.oracle.difference.value)},
+                   {"argmax", r.points.oracle_argmax},
+                   {"argmax_index", index_to(s.oracle.difference.index)}};
+  }
   j["reference"] = r.reference;
   j["reference_bits"] = r.reference_bits;
   j["plan"] = r.plan;
@@ -128,18 +137,25 @@ RowRecord from_json_line(const std::string& line, const std::string& place) {
     }
     if (total != s.samples)
       throw std::invalid_argument("judged and mismatched samples do not add up to samples");
-    s.max_error_over_condition = number_from(j.at("max_ulp_over_condition"));
-    s.oracle.compared = j.at("oracle").at("compared");
-    s.oracle.disagreed = j.at("oracle").at("disagreed");
-    s.oracle.difference = {number_from(j.at("oracle").at("max_difference_ulp")),
-                           index_from(j.at("oracle").at("argmax_index"))};
-    r.points.oracle_argmax = j.at("oracle").at("argmax").get<std::vector<std::string>>();
+    if (r.function_class == kernel_class) {
+      s.normwise = {number_from(j.at("max_normwise")), index_from(j.at("normwise_index"))};
+      r.points.normwise_argmax = j.at("normwise_argmax").get<std::vector<std::string>>();
+      r.points.condition = number_from(j.at("condition"));
+      s.max_error_over_condition = number_from(j.at("max_normwise_over_condition"));
+    } else {
+      s.max_error_over_condition = number_from(j.at("max_ulp_over_condition"));
+      s.oracle.compared = j.at("oracle").at("compared");
+      s.oracle.disagreed = j.at("oracle").at("disagreed");
+      s.oracle.difference = {number_from(j.at("oracle").at("max_difference_ulp")),
+                             index_from(j.at("oracle").at("argmax_index"))};
+      r.points.oracle_argmax = j.at("oracle").at("argmax").get<std::vector<std::string>>();
+    }
     r.reference = j.at("reference");
     r.reference_bits = j.at("reference_bits");
     r.plan = j.at("plan");
     return r;
   } catch (const std::exception& e) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: not a math record: {}", place, e.what()));
+    throw Failure(ExitCode::bad_input, fmt::format("{}: not a record: {}", place, e.what()));
   }
 }
 
@@ -149,10 +165,13 @@ RecordSet read_records(const std::filesystem::path& directory) {
   }
   RecordSet set;
   const auto context = directory / "context.json";
-  const auto records = directory / "math.jsonl";
+  set.file =
+      std::filesystem::exists(directory / kernel_records_file) ? kernel_records_file : math_records_file;
+  const auto records = directory / set.file;
   if (!std::filesystem::exists(context) && !std::filesystem::exists(records)) {
     throw Failure(ExitCode::incomplete,
-                  fmt::format("{}: nothing measured there: no math.jsonl", directory.string()));
+                  fmt::format("{}: nothing measured there: no {} or {}", directory.string(),
+                              math_records_file, kernel_records_file));
   }
   try {
     set.context = Json::parse(read_file(context));
@@ -169,6 +188,27 @@ RecordSet read_records(const std::filesystem::path& directory) {
     }
   }
   return set;
+}
+
+void guard_output(const std::filesystem::path& out, const std::string& plan_hash, bool overwrite) {
+  const auto context = out / "context.json";
+  if (!std::filesystem::exists(context)) return;
+  std::string there;
+  try {
+    there = Json::parse(read_file(context)).value("plan", "");
+  } catch (const Json::exception&) {
+    there = "unreadable";
+  }
+  if (there == plan_hash) return;
+  if (!overwrite) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{} holds the records of another plan ({}); choose another --out or "
+                              "give --overwrite",
+                              out.string(), there));
+  }
+  // The other plan's records must not stand beside the new context.
+  for (const auto* file : {math_records_file, kernel_records_file, "timing.jsonl"})
+    std::filesystem::remove(out / file);
 }
 
 std::string records_text(std::vector<RowRecord> records) {

@@ -19,11 +19,19 @@ using Json = nlohmann::ordered_json;
 // A number, or the string "inf", or null where there is none (negative stands for "nothing seen").
 [[nodiscard]] Json number_or_text(double x);
 
+// The files of a run's directory; a directory holds the records of one plan.
+inline constexpr const char* math_records_file = "math.jsonl";
+inline constexpr const char* kernel_records_file = "kernels.jsonl";
+
 struct RecordSet {
   Json context;
   std::vector<RowRecord> records;
+  std::string file;  // name of the file that holds them
 };
 [[nodiscard]] RecordSet read_records(const std::filesystem::path& directory);
+// Throws a Failure unless `out` is empty or holds records of the plan with this hash: those of another plan
+// are somebody's results and are not written over unless asked.
+void guard_output(const std::filesystem::path& out, const std::string& plan_hash, bool overwrite);
 // Sorted by (function, part, type, stratum), a JSON object a line.
 [[nodiscard]] std::string records_text(std::vector<RowRecord> records);
 

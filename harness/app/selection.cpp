@@ -75,6 +75,36 @@ void unknown_name(const std::string& what, const std::string& name, const std::v
                                                  name, hint, what == "stratum" ? "strata" : what + "s"));
 }
 
+std::vector<dem::KernelId> select_kernels(const std::string& text) {
+  std::vector<dem::KernelId> all;
+  std::vector<std::string> names;
+  for (const auto& k : dem::all_kernels()) {
+    all.push_back(k.id);
+    names.emplace_back(k.name);
+  }
+  if (text == "all") return all;
+  const auto chosen = split(text, ',');
+  for (const auto& name : chosen) {
+    if (dem::find_kernel(name) == nullptr) unknown_name("kernel", name, names);
+  }
+  return in_order(all, chosen, [](dem::KernelId id) { return std::string(dem::info_of(id).name); });
+}
+
+std::vector<StateStratum> select_state_strata(const std::string& text) {
+  std::vector<StateStratum> all;
+  std::vector<std::string> names;
+  for (const auto& s : all_state_strata) {
+    all.push_back(s.id);
+    names.emplace_back(s.name);
+  }
+  if (text == "all") return all;
+  const auto chosen = split(text, ',');
+  for (const auto& name : chosen) {
+    if (!find_state_stratum(name)) unknown_name("stratum", name, names);
+  }
+  return in_order(all, chosen, [](StateStratum s) { return std::string(name_of(s)); });
+}
+
 const FunctionInfo& function_or_fail(const std::string& name) {
   const auto f = find_function(name);
   if (!f) unknown_name("function", name, function_names());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/core/kernel_plan.hpp"
 #include "harness/core/plan.hpp"
 
 namespace ulpgate::app {
@@ -14,6 +15,8 @@ namespace ulpgate::app {
 [[nodiscard]] std::vector<FunctionId> select_functions(const std::string& text);
 [[nodiscard]] std::vector<std::string> select_types(const std::string& text);
 [[nodiscard]] std::vector<Stratum> select_strata(const std::string& text);
+[[nodiscard]] std::vector<dem::KernelId> select_kernels(const std::string& text);
+[[nodiscard]] std::vector<StateStratum> select_state_strata(const std::string& text);
 
 struct Shard {
   std::uint64_t index = 0;

@@ -19,8 +19,7 @@ constexpr long greatest_index = 1000;
 constexpr long greatest_exponent = 1L << 20;
 }  // namespace
 
-MpfrValue parse_argument(const FunctionInfo& f, std::size_t slot, const RealDescriptor& type,
-                         const std::string& text, const std::string& place) {
+MpfrValue parse_number(const RealDescriptor& type, const std::string& text, const std::string& place) {
   MpfrValue value(type.format.precision + 64);
   if (!parse_into(value, text, type.format)) {
     throw Failure(
@@ -28,6 +27,17 @@ MpfrValue parse_argument(const FunctionInfo& f, std::size_t slot, const RealDesc
         fmt::format("{}: '{}' is not a number (want decimal, hexfloat such as -0x1.8p+1, inf or nan)", place,
                     text));
   }
+  if (mpfr_regular_p(value.get()) && std::labs(binade(value)) > greatest_exponent) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: '{}' lies beyond 2^+-{}, the largest arguments that are evaluated", place,
+                              text, greatest_exponent));
+  }
+  return value;
+}
+
+MpfrValue parse_argument(const FunctionInfo& f, std::size_t slot, const RealDescriptor& type,
+                         const std::string& text, const std::string& place) {
+  MpfrValue value = parse_number(type, text, place);
   const DomainMap map = f.domain[slot];
   if (map == DomainMap::UINT || map == DomainMap::INT) {
     const long least = map == DomainMap::UINT ? 0 : -greatest_index;
@@ -36,11 +46,6 @@ MpfrValue parse_argument(const FunctionInfo& f, std::size_t slot, const RealDesc
                     fmt::format("{}: argument {} of {} must be an integer from {} to {}, not '{}'", place,
                                 slot + 1, f.name, least, greatest_index, text));
     }
-  }
-  if (mpfr_regular_p(value.get()) && std::labs(binade(value)) > greatest_exponent) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: '{}' lies beyond 2^+-{}, the largest arguments that are evaluated", place,
-                              text, greatest_exponent));
   }
   return value;
 }

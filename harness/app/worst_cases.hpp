@@ -18,8 +18,10 @@ struct WorstCaseFile {
 [[nodiscard]] WorstCaseFile read_worst_cases(const std::filesystem::path& directory,
                                              const PlanRequest& request);
 
-// Parses one argument for argument slot `slot` of f in the type's format; throws a Failure that begins with
-// `place`.
+// A number of the type; the Failure of a bad one begins with `place`.
+[[nodiscard]] MpfrValue parse_number(const RealDescriptor& type, const std::string& text,
+                                     const std::string& place);
+// The same for argument slot `slot` of f, with what its domain asks for.
 [[nodiscard]] MpfrValue parse_argument(const FunctionInfo& f, std::size_t slot, const RealDescriptor& type,
                                        const std::string& text, const std::string& place);
 

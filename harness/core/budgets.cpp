@@ -27,9 +27,10 @@ std::string mismatch_key(const RowRecord& r, std::size_t outcome) {
 }
 
 std::uint64_t allowed_count(std::uint64_t budgeted, const RowRecord& r, const TypeBudgets& type) {
-  const bool drawn = is_drawn(find_stratum(r.stratum).value_or(Stratum::edges));
-  if (!drawn) return budgeted;
-  const std::uint64_t planned_then = Plan::drawn_count(*find_stratum(r.stratum), type.samples);
+  const bool kernel = r.function_class == kernel_class;
+  if (!kernel && !is_drawn(find_stratum(r.stratum).value_or(Stratum::edges))) return budgeted;
+  const std::uint64_t planned_then =
+      kernel ? type.samples : Plan::drawn_count(*find_stratum(r.stratum), type.samples);
   if (planned_then == r.planned && type.seed == r.seed) return budgeted;
   if (budgeted == 0) return 0;
   const double expected = static_cast<double>(budgeted) * static_cast<double>(r.planned) /
@@ -48,6 +49,14 @@ void judge_row(const RowRecord& r, const Budget& budget, double limit, const Typ
                         fmt::format("maximum error {:.6g} ULP, budget {:.6g} ({}: got {}, exact {})",
                                     s.max_error.value, limit, r.stratum, r.points.got, r.points.exact),
                         s.max_error.value / std::max(limit, 1e-300), r.points.argmax});
+  }
+  const auto beyond = budget.over_condition.find(r.stratum);
+  if (beyond != budget.over_condition.end() && !(s.max_error_over_condition <= beyond->second)) {
+    findings.push_back({FindingKind::regression, r.type, row,
+                        fmt::format("normwise error {:.4g} times condition and roundoff, budget {:.4g} ({})",
+                                    s.max_error_over_condition, beyond->second, r.stratum),
+                        s.max_error_over_condition / std::max(beyond->second, 1e-300),
+                        r.points.normwise_argmax});
   }
   for (std::size_t o = 1; o < outcome_count; ++o) {
     if (s.outcomes[o] == 0) continue;
@@ -139,6 +148,8 @@ Budgets measured_budgets(const std::vector<RowRecord>& records, std::uint64_t sa
     type.seed = seed;
     Budget& budget = type.rows[budget_key(r)];
     budget.max_ulp[r.stratum] = r.summary.judged() > 0 ? round_up(r.summary.max_error.value) : 0;
+    if (r.function_class == kernel_class)
+      budget.over_condition[r.stratum] = round_up(r.summary.max_error_over_condition);
     for (std::size_t o = 1; o < outcome_count; ++o) {
       if (r.summary.outcomes[o] > 0) budget.mismatch[mismatch_key(r, o)] = r.summary.outcomes[o];
     }
@@ -160,6 +171,11 @@ std::string rises(const Budget& before, const Budget& after, bool same_plan) {
     if (old != before.max_ulp.end() && limit > old->second)
       what += fmt::format(" {} {:.4g} -> {:.4g} ULP", stratum, old->second, limit);
   }
+  for (const auto& [stratum, limit] : after.over_condition) {
+    const auto old = before.over_condition.find(stratum);
+    if (old != before.over_condition.end() && limit > old->second)
+      what += fmt::format(" {} {:.4g} -> {:.4g} over condition", stratum, old->second, limit);
+  }
   for (const auto& [key, count] : after.mismatch) {
     // A stratum without a limit was never measured: its counts appear freely, like its limit.
     if (!before.max_ulp.contains(key.substr(0, key.find('.')))) continue;
@@ -177,6 +193,7 @@ void replace_strata(Budget& mine, const Budget& measured) {
     mine.max_ulp[stratum] = limit;
     std::erase_if(mine.mismatch, [&](const auto& entry) { return is_of_stratum(entry.first, stratum); });
   }
+  for (const auto& [stratum, limit] : measured.over_condition) mine.over_condition[stratum] = limit;
   mine.mismatch.insert(measured.mismatch.begin(), measured.mismatch.end());
 }
 

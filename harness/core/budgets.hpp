@@ -15,6 +15,8 @@ namespace ulpgate {
 // structured argument must not hide a regression to 5 ULP at ordinary ones.
 struct Budget {
   std::map<std::string, double> max_ulp;  // by stratum
+  // Kernels only: normwise error / (condition * unit roundoff), by stratum.
+  std::map<std::string, double> over_condition;
   // "stratum.outcome" -> accepted count, e.g. "edges.zero_sign" -> 2.
   std::map<std::string, std::uint64_t> mismatch;
   std::string reason;  // why a limit was raised, empty if it never was

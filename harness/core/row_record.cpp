@@ -51,6 +51,10 @@ void merge_record(RowRecord& into, const RowRecord& other) {
           other.points.first_mismatch.at(static_cast<Outcome>(o));
     }
   }
+  if (into.summary.normwise.index != before.normwise.index) {
+    into.points.normwise_argmax = other.points.normwise_argmax;
+    into.points.condition = other.points.condition;
+  }
   if (into.summary.oracle.difference.index != before.oracle.difference.index) {
     into.points.oracle_argmax = other.points.oracle_argmax;
   }

@@ -18,7 +18,20 @@ struct RowPoints {
   std::string exact;
   std::map<Outcome, std::vector<std::string>> first_mismatch;
   std::vector<std::string> oracle_argmax;
+  // Of a kernel's quantity: the state of the largest normwise error, and the condition number there.
+  std::vector<std::string> normwise_argmax;
+  double condition = 0;
 };
+
+// The class of kernel rows, beside the classes of functions.
+inline constexpr std::string_view kernel_class = "kernel";
+
+// A kernel is called unstable where its normwise error exceeds this many times condition number and unit
+// roundoff: more roundings than a backward stable evaluation of a few dozen operations accumulates.
+inline constexpr double stability_limit = 16;
+[[nodiscard]] inline bool is_stable(const Summary& s) {
+  return !(s.max_error_over_condition > stability_limit);
+}
 
 struct RowRecord {
   std::string function;

@@ -112,6 +112,7 @@ void Summary::merge(const Summary& other) {
   max_error.merge(other.max_error);
   max_distance = std::max(max_distance, other.max_distance);
   max_error_over_condition = std::max(max_error_over_condition, other.max_error_over_condition);
+  normwise.merge(other.normwise);
   histogram.merge(other.histogram);
   sum.merge(other.sum);
   oracle.merge(other.oracle);

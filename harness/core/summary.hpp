@@ -83,6 +83,7 @@ struct Summary {
   // Largest error / max(1, condition number), over results that are off by more than half a ULP; 0 if none
   // is.
   double max_error_over_condition = 0;
+  Maximum normwise;  // of a kernel's quantity: |got - exact| / |exact| in units of 2^-p
   UlpHistogram histogram;
   UlpSum sum;
   OracleComparison oracle;

@@ -1,0 +1,122 @@
+// ulpgate kernels: runs the DEM kernels over strata of states and writes records.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <thread>
+
+#include "harness/app/commands.hpp"
+#include "harness/app/context.hpp"
+#include "harness/app/crash_report.hpp"
+#include "harness/app/files.hpp"
+#include "harness/app/runner.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+struct KernelOptions {
+  std::string kernels = "all";
+  std::string types = "all";
+  std::string strata = "all";
+  std::uint64_t samples = 1000;
+  std::uint64_t seed = 1;
+  unsigned threads = 0;
+  std::string shard = "0/1";
+  std::string out;
+  bool overwrite = false;
+  bool json = false;
+};
+
+std::vector<RowRecord> measure(const KernelPlan& plan, const Shard& shard, unsigned threads, bool& complete) {
+  std::vector<std::unique_ptr<RowHint>> hints;
+  for (const auto& row : plan.rows())
+    hints.push_back(std::make_unique<RowHint>(static_cast<int>(row.kernel->outputs.size())));
+  const UnitJob job{
+      "kernels", plan.units(), plan.rows().size(),
+      [&](const WorkUnit& unit) {
+        const KernelRow& row = plan.rows()[unit.row];
+        const CrashPlace place(row.kernel->name, row.engine->descriptor().token, name_of(row.source.stratum));
+        return row.engine->evaluate(*row.kernel, row.source, unit.first, unit.last, *hints[unit.row]);
+      },
+      [&](const WorkUnit& unit) {
+        const auto& engine = *plan.rows()[unit.row].engine;
+        const auto bits = static_cast<double>(engine.descriptor().reference_bits);
+        return static_cast<double>(unit.last - unit.first) * std::pow(bits, 1.5);
+      }};
+  const UnitSummaries done = run_units(job, shard, threads);
+  complete = done.complete;
+  std::vector<RowRecord> records;
+  for (std::size_t i = 0; i < done.rows.size(); ++i) {
+    if (done.rows[i].empty()) continue;
+    for (auto& record : finish_kernel_row(plan, plan.rows()[i], done.rows[i]))
+      records.push_back(std::move(record));
+  }
+  return records;
+}
+
+void print_unstable(const std::vector<RowRecord>& records) {
+  std::size_t unstable = 0;
+  for (const auto& r : records) {
+    if (is_stable(r.summary)) continue;
+    ++unstable;
+    fmt::print(stderr, "ulpgate: unstable: {} {} {} {}: {:.3g} roundings beyond its condition\n", r.function,
+               r.part, r.type, r.stratum, r.summary.max_error_over_condition);
+  }
+  fmt::print(stderr, "ulpgate: {} of {} rows are unstable (error over {:g} times condition and roundoff)\n",
+             unstable, records.size(), stability_limit);
+}
+
+ExitCode run_kernels(const KernelOptions& o) {
+  const Shard shard = parse_shard(o.shard);
+  KernelPlanRequest request;
+  request.kernels = select_kernels(o.kernels);
+  request.types = select_types(o.types);
+  request.strata = select_state_strata(o.strata);
+  request.samples = o.samples;
+  request.seed = o.seed;
+  const KernelPlan plan(std::move(request));
+  const std::filesystem::path out = o.out;
+  make_directory(out);
+  guard_output(out, plan.hash(), o.overwrite);
+  const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
+  bool complete = true;
+  const auto records = measure(plan, shard, threads, complete);
+  const std::string text = records_text(records);
+  write_file(out / kernel_records_file, text);
+  const Json context = make_context(plan, {shard.text()}, threads, complete && shard.count == 1);
+  write_file(out / "context.json", context.dump(2) + "\n");
+  if (o.json) fmt::print("{}", text);
+  if (!complete) {
+    throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}", out.string()));
+  }
+  fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", records.size(),
+             (out / kernel_records_file).string(), plan.hash());
+  print_unstable(records);
+  return ExitCode::pass;
+}
+
+}  // namespace
+
+void add_kernels_command(CLI::App& app, Action& action) {
+  auto* kernels = app.add_subcommand("kernels", "Evaluate DEM kernels and judge them against RealHP<4>");
+  auto o = std::make_shared<KernelOptions>();
+  kernels->add_option("--kernels", o->kernels, "all or names, comma-separated")->capture_default_str();
+  kernels->add_option("--types", o->types, "all or tokens, comma-separated")->capture_default_str();
+  kernels->add_option("--strata", o->strata, "all or names of strata of states, comma-separated")
+      ->capture_default_str();
+  kernels->add_option("--samples", o->samples, "states of each stratum")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48U));
+  kernels->add_option("--seed", o->seed, "seed of the states")->capture_default_str();
+  kernels->add_option("--threads", o->threads, "threads, 0: one a core")
+      ->capture_default_str()
+      ->check(CLI::Range(0U, 4096U));
+  kernels->add_option("--shard", o->shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")
+      ->capture_default_str();
+  kernels->add_option("--out", o->out, "directory of the records")->required();
+  kernels->add_flag("--overwrite", o->overwrite, "write over the records of another plan");
+  kernels->add_flag("--json", o->json, "print the records as well");
+  kernels->callback([=, &action] { action = [=] { return run_kernels(*o); }; });
+}
+
+}  // namespace ulpgate::app
