@@ -1,4 +1,5 @@
-// ContactPass: evaluates one pair of bodies, geometry, physics of a new contact, law; any thread may take any pair.
+// ContactPass: evaluates one pair of bodies, geometry, physics of a new contact, law; any thread may take any
+// pair.
 #pragma once
 
 #include "kernels/dem/energy.hpp"
@@ -90,14 +91,16 @@ struct ContactPass {
         const auto mean = [](const Real& x, const Real& y) { return Real((x + y) / 2); };
         const Collision<Real>& c1 = m1.collision;
         const Collision<Real>& c2 = m2.collision;
-        const Collision<Real> c{mean(c1.time, c2.time), mean(c1.normal, c2.normal),
-                                mean(c1.tangential, c2.tangential),
-                                c2.friction_angle < c1.friction_angle ? c2.friction_angle : c1.friction_angle};
+        const Collision<Real> c{
+            mean(c1.time, c2.time), mean(c1.normal, c2.normal), mean(c1.tangential, c2.tangential),
+            c2.friction_angle < c1.friction_angle ? c2.friction_angle : c1.friction_angle};
         return viscoelastic_physics(c, reduced_mass(a, b));
       }
-      case scenes::ContactLaw::hertz_mindlin: return hertz_mindlin_physics(m1.elastic, r1, m2.elastic, r2);
+      case scenes::ContactLaw::hertz_mindlin:
+        return hertz_mindlin_physics(m1.elastic, r1, m2.elastic, r2);
       case scenes::ContactLaw::frictional:
-      case scenes::ContactLaw::cohesive: break;
+      case scenes::ContactLaw::cohesive:
+        break;
     }
     return frictional_physics(m1.elastic, r1, m2.elastic, r2);
   }
@@ -123,8 +126,8 @@ struct ContactPass {
   }
 
  private:
-  // Apart by more than any rounding to double can feign: decides nothing that Real would decide otherwise, but spares
-  // it the arithmetic.
+  // Apart by more than any rounding to double can feign: decides nothing that Real would decide otherwise,
+  // but spares it the arithmetic.
   [[nodiscard]] bool coarsely_apart(std::size_t i1, std::size_t i2) const {
     const CoarseSphere& a = coarse[i1];
     const CoarseSphere& b = coarse[i2];
@@ -252,8 +255,8 @@ struct ContactPass {
     if (parts.energy) account(p, physics, overlap, f.normal, shear, f, normal, velocity, f.dissipation);
   }
 
-  // Elastic energy now, and what the interval since the last step lost to friction and dashpots: trapezoids, which
-  // are what the leapfrog's work is.
+  // Elastic energy now, and what the interval since the last step lost to friction and dashpots: trapezoids,
+  // which are what the leapfrog's work is.
   void account(std::size_t p, const ContactPhysics<Real>& physics, const Real& overlap, const Real& fn,
                const Vec3<Real>& shear_before, const ContactForce<Real>& f, const Vec3<Real>& normal,
                const Vec3<Real>& velocity, const Real& slip_loss) const {
@@ -320,7 +323,8 @@ struct ContactPass {
       const Vec3<Real> moment = bond_moment(bond.bending_stiffness, bond.bending_stiffness, rotation, normal);
       out.torque1 += moment;
       out.torque2 -= moment;
-      turning = bond.bending_stiffness * (squared_norm(rotation.bending) + rotation.twist * rotation.twist) / 2;
+      turning =
+          bond.bending_stiffness * (squared_norm(rotation.bending) + rotation.twist * rotation.twist) / 2;
     }
     if (parts.energy) {
       contacts.elastic[p] = elastic_energy(physics.kn, physics.ks, f.normal, f.shear) + turning;
