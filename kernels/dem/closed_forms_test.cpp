@@ -85,11 +85,18 @@ TEST(Rolling, StopsSlidingWhenAndWhereItMust) {
   const double start = 2 / (7 * mu * 9.81);
   const auto before = run(load("rolling"), {}, 0.9 * start);
   EXPECT_NEAR(velocity(*before, 0, 0), 1 - mu * 9.81 * 0.9 * start, 2e-4) << "still sliding: v = v0 - mu g t";
+  // The contact's spring goes on swinging about the rolling motion: the mean is what the closed form says.
   const auto after = run(load("rolling"), {}, 1.5 * start);
-  const double v = velocity(*after, 0, 0);
+  double v = 0;
+  double w = 0;
+  constexpr int samples = 2000;
+  for (int i = 0; i < samples; ++i) {
+    after->step(20);
+    v += velocity(*after, 0, 0) / samples;
+    w += after->approximate(BodyQuantity::angular_velocity, 0, 2) / samples;
+  }
   EXPECT_NEAR(v, 5.0 / 7, 1e-3) << "rolling at 5/7 v0";
-  const double w = after->approximate(BodyQuantity::angular_velocity, 0, 2);
-  EXPECT_NEAR(-w * 0.01, v, 2e-3) << "without slip";
+  EXPECT_NEAR(-w * 0.01, v, 1e-3) << "without slip";
   EXPECT_NEAR(after->energy("friction"), after->mass(0) / 7, 2e-2 * after->mass(0) / 7)
       << "1/7 m v0^2 is lost";
 }

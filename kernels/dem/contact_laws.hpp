@@ -36,8 +36,9 @@ template <RealType Real>
   return {fn, cut.shear, {}, cut.sliding, cut.dissipation};
 }
 
-// Linear spring and dashpot, Pournin 2001; never pulls.  The tangential dashpot acts only while the contact
-// sticks.
+// Linear spring and dashpot, Pournin 2001; never pulls.  `closing_speed` (m/s) is the true speed of approach
+// of the centres: the factor that keeps shear free of ratcheting would make the dashpot take out more than
+// the bodies lose.
 template <RealType Real>
 [[nodiscard]] Real viscoelastic_normal(const ContactPhysics<Real>& p, const Real& overlap,
                                        const Real& closing_speed) {
@@ -45,13 +46,14 @@ template <RealType Real>
   return fn > 0 ? fn : Real(0);
 }
 
+// The tangential dashpot acts only while the contact sticks.
 template <RealType Real>
 [[nodiscard]] ContactForce<Real> viscoelastic(const ContactPhysics<Real>& p, const Real& overlap,
-                                              const Vec3<Real>& normal, const Vec3<Real>& shear,
-                                              const Vec3<Real>& velocity, const Real& dt) {
-  const Real speed = dot(normal, velocity);
-  const Vec3<Real> vs = velocity - speed * normal;
-  const Real fn = viscoelastic_normal(p, overlap, Real(-speed));
+                                              const Real& closing_speed, const Vec3<Real>& normal,
+                                              const Vec3<Real>& shear, const Vec3<Real>& velocity,
+                                              const Real& dt) {
+  const Vec3<Real> vs = tangential(velocity, normal);
+  const Real fn = viscoelastic_normal(p, overlap, closing_speed);
   const Friction<Real> cut = cut_to_cone<Real>(shear - (p.ks * dt) * vs, Real(fn * p.tan_friction), p.ks);
   ContactForce<Real> f{fn, cut.shear, {}, cut.sliding, cut.dissipation};
   if (!cut.sliding) f.viscous = -(p.cs * vs);

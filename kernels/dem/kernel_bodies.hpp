@@ -129,11 +129,11 @@ ULPGATE_KERNEL(cundall_strack, ULPGATE_N(kn) ULPGATE_N(ks) ULPGATE_N(friction) U
                                    ULPGATE_V(shear) ULPGATE_V(v) ULPGATE_N(dt) const ContactPhysics<Real>
                                        p{kn, ks, Real(0), Real(0), friction};
                put_force(out, dem::cundall_strack(p, u, n, shear, v, dt), n, false);)
-ULPGATE_KERNEL(viscoelastic,
-               ULPGATE_N(kn) ULPGATE_N(ks) ULPGATE_N(cn) ULPGATE_N(cs) ULPGATE_N(friction) ULPGATE_N(u)
-                   ULPGATE_V(n) ULPGATE_V(shear) ULPGATE_V(v) ULPGATE_N(dt) const ContactPhysics<Real>
-                       p{kn, ks, cn, cs, friction};
-               put_force(out, dem::viscoelastic(p, u, n, shear, v, dt), n, true);)
+ULPGATE_KERNEL(viscoelastic, ULPGATE_N(kn) ULPGATE_N(ks) ULPGATE_N(cn) ULPGATE_N(cs) ULPGATE_N(friction)
+                                 ULPGATE_N(u) ULPGATE_N(closing) ULPGATE_V(n) ULPGATE_V(shear) ULPGATE_V(v)
+                                     ULPGATE_N(dt) const ContactPhysics<Real>
+                                         p{kn, ks, cn, cs, friction};
+               put_force(out, dem::viscoelastic(p, u, closing, n, shear, v, dt), n, true);)
 ULPGATE_KERNEL(hertz_mindlin, ULPGATE_N(kn) ULPGATE_N(ks) ULPGATE_N(friction) ULPGATE_N(u) ULPGATE_V(n)
                                   ULPGATE_V(shear) ULPGATE_V(v) ULPGATE_N(dt) const ContactPhysics<Real>
                                       p{kn, ks, Real(0), Real(0), friction};

@@ -56,15 +56,36 @@ std::optional<KernelInfo> find_kernel(std::string_view name) {
 }
 
 std::string_view name_of(Role role) {
-  constexpr auto names =
-      std::to_array<std::string_view>({"position",     "coordinate",  "length",         "radius",
-                                       "arm",          "overlap",     "velocity",       "angular_velocity",
-                                       "acceleration", "unit_vector", "orientation",    "angle",
-                                       "rotation",     "force",       "torque",         "angular_momentum",
-                                       "strength",     "mass",        "inertia",        "density",
-                                       "young",        "poisson",     "friction_angle", "tan_friction",
-                                       "stiffness",    "viscosity",   "restitution",    "damping",
-                                       "time_step"});
+  constexpr auto names = std::to_array<std::string_view>({"position",
+                                                          "coordinate",
+                                                          "length",
+                                                          "radius",
+                                                          "arm",
+                                                          "overlap",
+                                                          "velocity",
+                                                          "speed",
+                                                          "angular_velocity",
+                                                          "acceleration",
+                                                          "unit_vector",
+                                                          "orientation",
+                                                          "angle",
+                                                          "rotation",
+                                                          "force",
+                                                          "torque",
+                                                          "angular_momentum",
+                                                          "strength",
+                                                          "mass",
+                                                          "inertia",
+                                                          "density",
+                                                          "young",
+                                                          "poisson",
+                                                          "friction_angle",
+                                                          "tan_friction",
+                                                          "stiffness",
+                                                          "viscosity",
+                                                          "restitution",
+                                                          "damping",
+                                                          "time_step"});
   static_assert(names.size() == static_cast<std::size_t>(Role::time_step) + 1);
   return names[static_cast<std::size_t>(role)];
 }

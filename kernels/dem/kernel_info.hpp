@@ -22,6 +22,7 @@ enum class Role {
   arm,               // m, vector from a centre to a contact
   overlap,           // m, any sign; small against a radius
   velocity,          // m/s
+  speed,             // m/s, one axis, any sign
   angular_velocity,  // rad/s
   acceleration,      // m/s^2
   unit_vector,       // length 1 to rounding
