@@ -143,6 +143,7 @@ class States {
         s.v2 = s.v1 + s.velocity;
       }
       if (is(StateStratum::cone)) s.velocity = (speed * signed_one()) * s.normal;
+      s.closing_speed = -dem::dot(s.normal, s.velocity);
       s.dt = power(-24, -13);
       s.force = power(-6, 10) * vector();
       s.torque = power(-12, 4) * vector();

@@ -1,4 +1,5 @@
-// Archives: the state of a simulation as exact text, one named field a line, written and read by the same visit.
+// Archives: the state of a simulation as exact text, one named field a line, written and read by the same
+// visit.
 #pragma once
 
 #include <cstdint>
@@ -72,8 +73,9 @@ class ArchiveReader {
   template <class T>
   void field(const char* name, T& value) {
     const std::string_view found = token();
-    if (found != name) throw ArchiveError("expected the field '" + std::string(name) + "', found '" +
-                                          std::string(found) + "'");
+    if (found != name)
+      throw ArchiveError("expected the field '" + std::string(name) + "', found '" + std::string(found) +
+                         "'");
     get(value);
   }
   template <class T>

@@ -1,7 +1,7 @@
 // The step where bonds alone make the forces and nothing rotates: rods between nodes, the elastic pendulum.
 //
-// The same operations as the general step, without lists of contacts: for every bond d = x2 - x1, length, n = d/length,
-// u = (r1 + r2) - length, Fn = kn (u - u0); then every body.  No memory is taken in a step.
+// The same operations as the general step, without lists of contacts: for every bond d = x2 - x1, length, n =
+// d/length, u = (r1 + r2) - length, Fn = kn (u - u0); then every body.  No memory is taken in a step.
 #pragma once
 
 #include "kernels/dem/integrate.hpp"
@@ -34,7 +34,8 @@ class BondsAlone {
       } else {
         axis(b.position[i].x, b.velocity[i].x, b.force[i].x, s_.gravity.x, b.mass[i]);
         axis(b.position[i].y, b.velocity[i].y, b.force[i].y, s_.gravity.y, b.mass[i]);
-        if constexpr (Axes == 3) axis(b.position[i].z, b.velocity[i].z, b.force[i].z, s_.gravity.z, b.mass[i]);
+        if constexpr (Axes == 3)
+          axis(b.position[i].z, b.velocity[i].z, b.force[i].z, s_.gravity.z, b.mass[i]);
       }
       b.force[i].x = Real(0);
       b.force[i].y = Real(0);

@@ -36,8 +36,8 @@ template <RealType Real>
 
 // Half sizes of the axis-aligned box about an oriented one: |R| h.
 template <RealType Real>
-[[nodiscard]] Bounds<Real> box_bounds(const Vec3<Real>& centre, const Vec3<Real>& h, const Quaternion<Real>& q,
-                                      const Real& sweep) {
+[[nodiscard]] Bounds<Real> box_bounds(const Vec3<Real>& centre, const Vec3<Real>& h,
+                                      const Quaternion<Real>& q, const Real& sweep) {
   using std::abs;
   const Vec3<Real> ex = rotate(q, Vec3<Real>{h.x, Real(0), Real(0)});
   const Vec3<Real> ey = rotate(q, Vec3<Real>{Real(0), h.y, Real(0)});

@@ -26,7 +26,8 @@ bool overlap(const CoarseBody& a, const CoarseBody& b) {
   return a.movable || b.movable;
 }
 
-// Cells of y and z, no narrower than the widest box of the small bodies, so that a box reaches into its neighbours only.
+// Cells of y and z, no narrower than the widest box of the small bodies, so that a box reaches into its
+// neighbours only.
 struct CellGrid {
   std::array<double, 2> origin{};
   std::array<double, 2> width{1, 1};
@@ -69,7 +70,8 @@ void BroadPhase::sort_along_x(const std::vector<CoarseBody>& bodies) {
     const std::int32_t id = order_[i];
     const double x = bodies[static_cast<std::size_t>(id)].low[0];
     std::size_t j = i;
-    for (; j > 0 && bodies[static_cast<std::size_t>(order_[j - 1])].low[0] > x; --j) order_[j] = order_[j - 1];
+    for (; j > 0 && bodies[static_cast<std::size_t>(order_[j - 1])].low[0] > x; --j)
+      order_[j] = order_[j - 1];
     order_[j] = id;
   }
 }

@@ -1,7 +1,8 @@
 // Broad phase of the collider: sort and sweep over boxes in double, whatever the Real of the simulation.
 //
-// Candidates decide nothing: a pair becomes a contact by its geometry in Real alone, and contacts are worked through in
-// the order of their bodies' numbers.  So the boxes may be in double as long as they are rounded outwards.
+// Candidates decide nothing: a pair becomes a contact by its geometry in Real alone, and contacts are worked
+// through in the order of their bodies' numbers.  So the boxes may be in double as long as they are rounded
+// outwards.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@ namespace ulpgate::dem {
 struct CoarseBody {
   std::array<double, 3> low{}, high{};  // box, m, sweep included; infinite where a body has no end
   bool movable = false;                 // pairs of two immovable bodies are no candidates
-  bool sphere = false;                  // then two spheres are candidates only within the sum of their reaches
+  bool sphere = false;  // then two spheres are candidates only within the sum of their reaches
   std::array<double, 3> centre{};
   double reach = 0;
 };
@@ -27,8 +28,8 @@ struct BodyPair {
 // Keeps its sorted order between calls, so that a re-sort of bodies that hardly moved is cheap.
 class BroadPhase {
  public:
-  // All candidate pairs, sorted.  Sweep and prune along x (D. Baraff, PhD thesis, Cornell 1992), its active list
-  // split into cells of y and z.
+  // All candidate pairs, sorted.  Sweep and prune along x (D. Baraff, PhD thesis, Cornell 1992), its active
+  // list split into cells of y and z.
   void find(const std::vector<CoarseBody>& bodies, std::vector<BodyPair>& pairs);
 
  private:

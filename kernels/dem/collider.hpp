@@ -1,4 +1,5 @@
-// Collider<Real>: keeps the sorted list of pairs that may touch, rebuilt when a body has moved as far as its sweep.
+// Collider<Real>: keeps the sorted list of pairs that may touch, rebuilt when a body has moved as far as its
+// sweep.
 #pragma once
 
 #include <limits>
@@ -77,10 +78,18 @@ class Collider {
     Bounds<Real> box;
     const Flat<Real>* flat = c.sphere ? nullptr : &s.flats[static_cast<std::size_t>(b.flat[i])];
     switch (b.shape[i]) {
-      case Shape::sphere: box = sphere_bounds(b.position[i], b.radius[i], s.sweep); break;
-      case Shape::facet: box = facet_bounds(flat->facet, s.sweep); break;
-      case Shape::box: box = box_bounds(b.position[i], flat->half_size, flat->orientation, s.sweep); break;
-      case Shape::wall: box = sphere_bounds(b.position[i], Real(0), s.sweep); break;
+      case Shape::sphere:
+        box = sphere_bounds(b.position[i], b.radius[i], s.sweep);
+        break;
+      case Shape::facet:
+        box = facet_bounds(flat->facet, s.sweep);
+        break;
+      case Shape::box:
+        box = box_bounds(b.position[i], flat->half_size, flat->orientation, s.sweep);
+        break;
+      case Shape::wall:
+        box = sphere_bounds(b.position[i], Real(0), s.sweep);
+        break;
     }
     for (std::size_t k = 0; k < 3; ++k) {
       c.low[k] = static_cast<double>(box.low[k]);
@@ -189,8 +198,10 @@ class Collider {
     std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
     for (std::size_t p = 0; p < s.contacts.size(); ++p) {
       const BodyPair& pair = s.contacts.pair[p];
-      entries_[static_cast<std::size_t>(next[static_cast<std::size_t>(pair.first)]++)] = static_cast<std::int32_t>(p);
-      entries_[static_cast<std::size_t>(next[static_cast<std::size_t>(pair.second)]++)] = static_cast<std::int32_t>(p);
+      entries_[static_cast<std::size_t>(next[static_cast<std::size_t>(pair.first)]++)] =
+          static_cast<std::int32_t>(p);
+      entries_[static_cast<std::size_t>(next[static_cast<std::size_t>(pair.second)]++)] =
+          static_cast<std::int32_t>(p);
     }
   }
 

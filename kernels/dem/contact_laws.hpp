@@ -1,7 +1,7 @@
 // Contact laws: the force on body 2 (body 1 gets the opposite) from overlap, velocity and stored shear.
 //
-// Signs: the normal points from body 1 to body 2; a positive normal force pushes the bodies apart; the shear force
-// opposes the tangential velocity of body 2 against body 1.
+// Signs: the normal points from body 1 to body 2; a positive normal force pushes the bodies apart; the shear
+// force opposes the tangential velocity of body 2 against body 1.
 #pragma once
 
 #include "kernels/dem/contact_physics.hpp"
@@ -11,11 +11,11 @@ namespace ulpgate::dem {
 
 template <RealType Real>
 struct ContactForce {
-  Real normal{0};           // N, along the contact's normal
-  Vec3<Real> shear;         // N, the elastic part, to be stored
-  Vec3<Real> viscous;       // N, tangential, not stored
+  Real normal{0};      // N, along the contact's normal
+  Vec3<Real> shear;    // N, the elastic part, to be stored
+  Vec3<Real> viscous;  // N, tangential, not stored
   bool sliding = false;
-  Real dissipation{0};      // J, lost to friction in this step
+  Real dissipation{0};  // J, lost to friction in this step
 };
 
 // F = Fn n + Fs + viscous, on body 2 (N).
@@ -36,20 +36,24 @@ template <RealType Real>
   return {fn, cut.shear, {}, cut.sliding, cut.dissipation};
 }
 
-// Linear spring and dashpot, Pournin 2001; never pulls.  The tangential dashpot acts only while the contact sticks.
+// Linear spring and dashpot, Pournin 2001; never pulls.  `closing_speed` (m/s) is the true speed of approach
+// of the centres: the factor that keeps shear free of ratcheting would make the dashpot take out more than
+// the bodies lose.
 template <RealType Real>
-[[nodiscard]] Real viscoelastic_normal(const ContactPhysics<Real>& p, const Real& overlap, const Real& closing_speed) {
+[[nodiscard]] Real viscoelastic_normal(const ContactPhysics<Real>& p, const Real& overlap,
+                                       const Real& closing_speed) {
   const Real fn = p.kn * overlap + p.cn * closing_speed;
   return fn > 0 ? fn : Real(0);
 }
 
+// The tangential dashpot acts only while the contact sticks.
 template <RealType Real>
 [[nodiscard]] ContactForce<Real> viscoelastic(const ContactPhysics<Real>& p, const Real& overlap,
-                                              const Vec3<Real>& normal, const Vec3<Real>& shear,
-                                              const Vec3<Real>& velocity, const Real& dt) {
-  const Real speed = dot(normal, velocity);
-  const Vec3<Real> vs = velocity - speed * normal;
-  const Real fn = viscoelastic_normal(p, overlap, Real(-speed));
+                                              const Real& closing_speed, const Vec3<Real>& normal,
+                                              const Vec3<Real>& shear, const Vec3<Real>& velocity,
+                                              const Real& dt) {
+  const Vec3<Real> vs = tangential(velocity, normal);
+  const Real fn = viscoelastic_normal(p, overlap, closing_speed);
   const Friction<Real> cut = cut_to_cone<Real>(shear - (p.ks * dt) * vs, Real(fn * p.tan_friction), p.ks);
   ContactForce<Real> f{fn, cut.shear, {}, cut.sliding, cut.dissipation};
   if (!cut.sliding) f.viscous = -(p.cs * vs);
@@ -87,8 +91,9 @@ struct BondStrength {
 // Cohesive law with tension and adhesion: the shear limit is adhesion + Fn tan phi, never below 0.
 template <RealType Real>
 [[nodiscard]] ContactForce<Real> cohesive(const ContactPhysics<Real>& p, const BondStrength<Real>& strength,
-                                          const Real& overlap, const Real& rest_overlap, const Vec3<Real>& normal,
-                                          const Vec3<Real>& shear, const Vec3<Real>& velocity, const Real& dt) {
+                                          const Real& overlap, const Real& rest_overlap,
+                                          const Vec3<Real>& normal, const Vec3<Real>& shear,
+                                          const Vec3<Real>& velocity, const Real& dt) {
   const Real fn = bond_normal_force(p.kn, overlap, rest_overlap);
   if (p.ks == 0) return {fn, {}, {}, false, Real(0)};
   const Vec3<Real> trial = shear - (p.ks * dt) * tangential(velocity, normal);
@@ -109,11 +114,12 @@ template <RealType Real>
   return r1 * r2 * ks * alpha;
 }
 
-// Torque of the shear force on a sphere whose arm to the contact is `arm` n: of body 1 arm = r1 - u/2, of body 2
-// r2 - u/2, the same sign for both.  The normal force has no arm across itself, so it is left out rather than left
-// to cancel.
+// Torque of the shear force on a sphere whose arm to the contact is `arm` n: of body 1 arm = r1 - u/2, of
+// body 2 r2 - u/2, the same sign for both.  The normal force has no arm across itself, so it is left out
+// rather than left to cancel.
 template <RealType Real>
-[[nodiscard]] Vec3<Real> shear_torque(const Real& arm, const Vec3<Real>& normal, const Vec3<Real>& tangential_force) {
+[[nodiscard]] Vec3<Real> shear_torque(const Real& arm, const Vec3<Real>& normal,
+                                      const Vec3<Real>& tangential_force) {
   return -(arm * cross(normal, tangential_force));
 }
 

@@ -1,4 +1,5 @@
-// ContactPass: evaluates one pair of bodies, geometry, physics of a new contact, law; any thread may take any pair.
+// ContactPass: evaluates one pair of bodies, geometry, physics of a new contact, law; any thread may take any
+// pair.
 #pragma once
 
 #include "kernels/dem/energy.hpp"
@@ -46,28 +47,28 @@ struct ContactPass {
     Real overlap{0};
     if (flat) {
       const ContactGeometry<Real> g = flat_geometry(i1, i2);
-      if (!(g.overlap > 0)) return lose(p);
+      if (!(g.overlap > 0)) return lose(p, i1, i2);
       normal = g.normal;
       overlap = g.overlap;
     } else {
       if constexpr (!NativeReal<Real>) {
-        if (bond < 0 && coarsely_apart(i1, i2)) return lose(p);
+        if (bond < 0 && coarsely_apart(i1, i2)) return lose(p, i1, i2);
       }
       const Real sum = bodies.radius[i1] + bodies.radius[i2];
       const Vec3<Real> d = bodies.position[i2] - bodies.position[i1];
       const Real length2 = squared_norm(d);
       // Surely apart: spares the root of most candidates.
-      if (bond < 0 && length2 * 64 > sum * sum * 65) return lose(p);
+      if (bond < 0 && length2 * 64 > sum * sum * 65) return lose(p, i1, i2);
       using std::sqrt;
       const Real length = sqrt(length2);
       overlap = sum - length;
-      if (bond < 0 && !(overlap >= 0)) return lose(p);
+      if (bond < 0 && !(overlap >= 0)) return lose(p, i1, i2);
       normal = d / length;
     }
     out.first = static_cast<std::int32_t>(i1);
     out.second = static_cast<std::int32_t>(i2);
     if (bond >= 0 && !hold(p, static_cast<std::size_t>(bond), i1, i2, overlap, normal, out)) {
-      if (!(overlap >= 0)) return lose(p);
+      if (!(overlap >= 0)) return lose(p, i1, i2);
       bond = -1;
     }
     if (bond >= 0) return true;
@@ -90,14 +91,16 @@ struct ContactPass {
         const auto mean = [](const Real& x, const Real& y) { return Real((x + y) / 2); };
         const Collision<Real>& c1 = m1.collision;
         const Collision<Real>& c2 = m2.collision;
-        const Collision<Real> c{mean(c1.time, c2.time), mean(c1.normal, c2.normal),
-                                mean(c1.tangential, c2.tangential),
-                                c2.friction_angle < c1.friction_angle ? c2.friction_angle : c1.friction_angle};
+        const Collision<Real> c{
+            mean(c1.time, c2.time), mean(c1.normal, c2.normal), mean(c1.tangential, c2.tangential),
+            c2.friction_angle < c1.friction_angle ? c2.friction_angle : c1.friction_angle};
         return viscoelastic_physics(c, reduced_mass(a, b));
       }
-      case scenes::ContactLaw::hertz_mindlin: return hertz_mindlin_physics(m1.elastic, r1, m2.elastic, r2);
+      case scenes::ContactLaw::hertz_mindlin:
+        return hertz_mindlin_physics(m1.elastic, r1, m2.elastic, r2);
       case scenes::ContactLaw::frictional:
-      case scenes::ContactLaw::cohesive: break;
+      case scenes::ContactLaw::cohesive:
+        break;
     }
     return frictional_physics(m1.elastic, r1, m2.elastic, r2);
   }
@@ -123,8 +126,8 @@ struct ContactPass {
   }
 
  private:
-  // Apart by more than any rounding to double can feign: decides nothing that Real would decide otherwise, but spares
-  // it the arithmetic.
+  // Apart by more than any rounding to double can feign: decides nothing that Real would decide otherwise,
+  // but spares it the arithmetic.
   [[nodiscard]] bool coarsely_apart(std::size_t i1, std::size_t i2) const {
     const CoarseSphere& a = coarse[i1];
     const CoarseSphere& b = coarse[i2];
@@ -144,7 +147,7 @@ struct ContactPass {
     return box_sphere(bodies.position[i1], f.half_size, f.orientation, x, r);
   }
 
-  bool lose(std::size_t p) const {
+  bool lose(std::size_t p, std::size_t i1, std::size_t i2) const {
     if (contacts.touching[p] != 0) {
       contacts.touching[p] = 0;
       if (parts.energy) {
@@ -152,6 +155,9 @@ struct ContactPass {
         if (parts.shear && contacts.ks[p] != 0) {
           contacts.friction_loss[p] += squared_norm(contacts.shear[p]) / (2 * contacts.ks[p]);
         }
+        // And half a step more of the dashpot, as a trapezoid ends.
+        const Vec3<Real> v = bodies.velocity[i2] - bodies.velocity[i1];
+        contacts.viscous_loss[p] -= dt / 2 * dot(contacts.viscous_before[p], v);
         contacts.elastic[p] = Real(0);
       }
     }
@@ -188,6 +194,24 @@ struct ContactPass {
                                     bodies.angular_velocity[i2]);
   }
 
+  // Of the centres, along the normal; rotation has no part in it.
+  [[nodiscard]] Real closing_speed(std::size_t i1, std::size_t i2, const Vec3<Real>& normal) const {
+    return -dot(normal, bodies.velocity[i2] - bodies.velocity[i1]);
+  }
+
+  // Of the two surfaces where they meet; what forces work on.
+  [[nodiscard]] Vec3<Real> contact_velocity(std::size_t i1, std::size_t i2, bool flat, const Real& overlap,
+                                            const Vec3<Real>& normal) const {
+    const Vec3<Real> v = bodies.velocity[i2] - bodies.velocity[i1];
+    if (!parts.rotation) return v;
+    const Real half = overlap / 2;
+    const Vec3<Real> w2 = (bodies.radius[i2] - half) * bodies.angular_velocity[i2];
+    const Vec3<Real> turn2 = v - cross(w2, normal);
+    if (flat) return turn2;
+    const Vec3<Real> w1 = (bodies.radius[i1] - half) * bodies.angular_velocity[i1];
+    return turn2 - cross(w1, normal);
+  }
+
   [[nodiscard]] Vec3<Real> carried_shear(std::size_t p, std::size_t i1, std::size_t i2,
                                          const Vec3<Real>& normal) const {
     const Vec3<Real> none;
@@ -211,13 +235,10 @@ struct ContactPass {
   void collide(std::size_t p, std::size_t i1, std::size_t i2, bool flat, const Real& overlap,
                const Vec3<Real>& normal, PairForce<Real>& out) const {
     const ContactPhysics<Real> physics = stored_physics(p);
-    const bool moving = parts.shear || parts.viscosity;
-    Vec3<Real> velocity;
-    if (moving) velocity = relative_velocity(i1, i2, flat, overlap, normal);
     if (!parts.shear) {
       Real fn{0};
       if (law == scenes::ContactLaw::viscoelastic) {
-        fn = parts.viscosity ? viscoelastic_normal(physics, overlap, Real(-dot(normal, velocity)))
+        fn = parts.viscosity ? viscoelastic_normal(physics, overlap, closing_speed(i1, i2, normal))
                              : Real(physics.kn * overlap);
       } else if (law == scenes::ContactLaw::hertz_mindlin) {
         using std::sqrt;
@@ -227,14 +248,17 @@ struct ContactPass {
       }
       out.force = fn * normal;
       if (parts.rotation) out.torque1 = out.torque2 = {};
-      if (parts.energy) account(p, physics, overlap, fn, {}, {}, normal, velocity, Real(0));
+      if (parts.energy) {
+        account(p, physics, overlap, fn, {}, {}, normal, {}, contact_velocity(i1, i2, flat, overlap, normal));
+      }
       return;
     }
+    const Vec3<Real> velocity = relative_velocity(i1, i2, flat, overlap, normal);
     const Vec3<Real> shear = carried_shear(p, i1, i2, normal);
     ContactForce<Real> f;
     switch (law) {
       case scenes::ContactLaw::viscoelastic:
-        f = viscoelastic(physics, overlap, normal, shear, velocity, dt);
+        f = viscoelastic(physics, overlap, closing_speed(i1, i2, normal), normal, shear, velocity, dt);
         break;
       case scenes::ContactLaw::hertz_mindlin:
         f = hertz_mindlin(physics, overlap, normal, shear, velocity, dt);
@@ -249,17 +273,20 @@ struct ContactPass {
     const Vec3<Real> tangential_force = f.shear + f.viscous;
     out.force = f.normal * normal + tangential_force;
     if (parts.rotation) set_torques(i1, i2, flat, overlap, normal, tangential_force, out);
-    if (parts.energy) account(p, physics, overlap, f.normal, shear, f, normal, velocity, f.dissipation);
+    if (parts.energy) {
+      account(p, physics, overlap, f.normal, shear, f, normal, velocity,
+              contact_velocity(i1, i2, flat, overlap, normal));
+    }
   }
 
-  // Elastic energy now, and what the interval since the last step lost to friction and dashpots: trapezoids, which
-  // are what the leapfrog's work is.
+  // Elastic energy now, and what the interval since the last step lost to friction and dashpots: trapezoids,
+  // which are what the leapfrog's work is.
   void account(std::size_t p, const ContactPhysics<Real>& physics, const Real& overlap, const Real& fn,
                const Vec3<Real>& shear_before, const ContactForce<Real>& f, const Vec3<Real>& normal,
-               const Vec3<Real>& velocity, const Real& slip_loss) const {
+               const Vec3<Real>& velocity, const Vec3<Real>& true_velocity) const {
     if (law == scenes::ContactLaw::hertz_mindlin) {
       contacts.elastic[p] = hertz_elastic_energy(physics.kn, physics.ks, overlap, f.shear);
-      if (f.sliding && !first_step) contacts.friction_loss[p] += slip_loss;
+      if (!first_step) contacts.friction_loss[p] += f.dissipation;
       return;
     }
     const Real spring = physics.kn * overlap;
@@ -270,7 +297,7 @@ struct ContactPass {
         const Vec3<Real> trial = shear_before - (physics.ks * dt) * tangential(velocity, normal);
         contacts.friction_loss[p] += dot(trial - f.shear, f.shear + shear_before) / (2 * physics.ks);
       }
-      contacts.viscous_loss[p] += -(dt / 2 * dot(dashpot + contacts.viscous_before[p], velocity));
+      contacts.viscous_loss[p] += -(dt / 2 * dot(dashpot + contacts.viscous_before[p], true_velocity));
     }
     contacts.viscous_before[p] = dashpot;
   }
@@ -320,7 +347,8 @@ struct ContactPass {
       const Vec3<Real> moment = bond_moment(bond.bending_stiffness, bond.bending_stiffness, rotation, normal);
       out.torque1 += moment;
       out.torque2 -= moment;
-      turning = bond.bending_stiffness * (squared_norm(rotation.bending) + rotation.twist * rotation.twist) / 2;
+      turning =
+          bond.bending_stiffness * (squared_norm(rotation.bending) + rotation.twist * rotation.twist) / 2;
     }
     if (parts.energy) {
       contacts.elastic[p] = elastic_energy(physics.kn, physics.ks, f.normal, f.shear) + turning;

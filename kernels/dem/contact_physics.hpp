@@ -20,13 +20,13 @@ struct ContactPhysics {
 
 template <RealType Real>
 struct Elastic {
-  Real young;           // Pa
+  Real young;  // Pa
   Real poisson;
   Real friction_angle;  // rad
 };
 
-// The stiffness of two springs E r in series, times two; 0 where either is 0.  This order of products is that of the
-// reference trajectory of the pendulum.
+// The stiffness of two springs E r in series, times two; 0 where either is 0.  This order of products is that
+// of the reference trajectory of the pendulum.
 template <RealType Real>
 [[nodiscard]] Real series_stiffness(const Real& e1, const Real& r1, const Real& e2, const Real& r2) {
   const Real sum = e1 * r1 + e2 * r2;
@@ -36,8 +36,8 @@ template <RealType Real>
 
 // Linear frictional contact of spheres of radius r1, r2 (m); a flat body takes the sphere's radius.
 template <RealType Real>
-[[nodiscard]] ContactPhysics<Real> frictional_physics(const Elastic<Real>& m1, const Real& r1, const Elastic<Real>& m2,
-                                                      const Real& r2) {
+[[nodiscard]] ContactPhysics<Real> frictional_physics(const Elastic<Real>& m1, const Real& r1,
+                                                      const Elastic<Real>& m2, const Real& r2) {
   using std::tan;
   ContactPhysics<Real> p;
   p.kn = series_stiffness(m1.young, r1, m2.young, r2);
@@ -57,14 +57,14 @@ template <RealType Real>
 
 template <RealType Real>
 struct Collision {
-  Real time;         // s, duration of a free head-on collision
-  Real normal;       // coefficient of restitution along the normal, (0, 1]
-  Real tangential;   // across it
+  Real time;            // s, duration of a free head-on collision
+  Real normal;          // coefficient of restitution along the normal, (0, 1]
+  Real tangential;      // across it
   Real friction_angle;  // rad
 };
 
-// Visco-elastic contact from the collision's duration and restitution.  O. Pournin, T. M. Liebling, A. Mocellin,
-// Phys. Rev. E 65 (2001) 011302.
+// Visco-elastic contact from the collision's duration and restitution.  O. Pournin, T. M. Liebling, A.
+// Mocellin, Phys. Rev. E 65 (2001) 011302.
 template <RealType Real>
 [[nodiscard]] ContactPhysics<Real> viscoelastic_physics(const Collision<Real>& c, const Real& m_reduced) {
   using std::log;
@@ -83,7 +83,8 @@ template <RealType Real>
 }
 
 // Hertz-Mindlin coefficients: Fn = kn u^(3/2), tangential stiffness ks u^(1/2) (no slip).  H. Hertz (1881);
-// R. D. Mindlin & H. Deresiewicz, J. Appl. Mech. 20 (1953) 327; K. L. Johnson, Contact Mechanics (1985), 4.2 and 7.2.
+// R. D. Mindlin & H. Deresiewicz, J. Appl. Mech. 20 (1953) 327; K. L. Johnson, Contact Mechanics (1985), 4.2
+// and 7.2.
 template <RealType Real>
 [[nodiscard]] ContactPhysics<Real> hertz_mindlin_physics(const Elastic<Real>& m1, const Real& r1,
                                                          const Elastic<Real>& m2, const Real& r2) {
@@ -92,8 +93,8 @@ template <RealType Real>
   // 1/E* = sum (1 - nu^2)/E, 1/G* = sum (2 - nu)/G with G = E/(2 (1 + nu)).
   const Real compliance_n =
       (1 - m1.poisson * m1.poisson) / m1.young + (1 - m2.poisson * m2.poisson) / m2.young;
-  const Real compliance_s = 2 * (2 - m1.poisson) * (1 + m1.poisson) / m1.young +
-                            2 * (2 - m2.poisson) * (1 + m2.poisson) / m2.young;
+  const Real compliance_s =
+      2 * (2 - m1.poisson) * (1 + m1.poisson) / m1.young + 2 * (2 - m2.poisson) * (1 + m2.poisson) / m2.young;
   const Real root = sqrt(r1 * r2 / (r1 + r2));
   ContactPhysics<Real> p;
   p.kn = 4 * root / (3 * compliance_n);

@@ -14,10 +14,11 @@ template <RealType Real>
   return radius * sqrt(density / young);
 }
 
-// Rayleigh wave: pi r sqrt(rho/G)/(0.1631 nu + 0.8766), G = E/(2 (1 + nu)); C. Thornton & C. W. Randall (1988).
-// The fit's coefficients are exact ratios.
+// Rayleigh wave: pi r sqrt(rho/G)/(0.1631 nu + 0.8766), G = E/(2 (1 + nu)); C. Thornton & C. W. Randall
+// (1988). The fit's coefficients are exact ratios.
 template <RealType Real>
-[[nodiscard]] Real rayleigh_step(const Real& radius, const Real& density, const Real& young, const Real& poisson) {
+[[nodiscard]] Real rayleigh_step(const Real& radius, const Real& density, const Real& young,
+                                 const Real& poisson) {
   using std::sqrt;
   const Real shear_modulus = young / (2 * (1 + poisson));
   const Real fit = (1631 * poisson + 8766) / 10000;

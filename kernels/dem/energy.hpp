@@ -21,7 +21,9 @@ template <RealType Real>
 // sum I_k w_k^2/2, both in the body frame.
 template <RealType Real>
 [[nodiscard]] Real rotational_energy(const Vec3<Real>& inertia, const Vec3<Real>& w_body) {
-  return ((inertia.x * w_body.x * w_body.x + inertia.y * w_body.y * w_body.y) + inertia.z * w_body.z * w_body.z) / 2;
+  return ((inertia.x * w_body.x * w_body.x + inertia.y * w_body.y * w_body.y) +
+          inertia.z * w_body.z * w_body.z) /
+         2;
 }
 
 // -m g.x, zero at the origin.
@@ -40,7 +42,8 @@ template <RealType Real>
 
 // Hertz: integral of kn u^(3/2) is 2/5 kn u^(5/2); the shear part as of a spring at the present stiffness.
 template <RealType Real>
-[[nodiscard]] Real hertz_elastic_energy(const Real& kn, const Real& ks, const Real& overlap, const Vec3<Real>& shear) {
+[[nodiscard]] Real hertz_elastic_energy(const Real& kn, const Real& ks, const Real& overlap,
+                                        const Vec3<Real>& shear) {
   using std::sqrt;
   if (!(overlap > 0)) return Real(0);
   const Real root = sqrt(overlap);

@@ -1,6 +1,7 @@
 // Geometry of a sphere against flat bodies: facet (triangle), wall (axis-aligned plane) and oriented box.
 //
-// In all of them body 1 is the flat body and body 2 the sphere: the normal points from the nearest point to the centre.
+// In all of them body 1 is the flat body and body 2 the sphere: the normal points from the nearest point to
+// the centre.
 #pragma once
 
 #include "kernels/dem/sphere_geometry.hpp"
@@ -48,8 +49,8 @@ template <RealType Real>
 
 // From the nearest point of the flat body; `away` is the normal to take where the centre lies on that point.
 template <RealType Real>
-[[nodiscard]] ContactGeometry<Real> from_nearest(const Vec3<Real>& nearest, const Vec3<Real>& x, const Real& r,
-                                                 const Vec3<Real>& away) {
+[[nodiscard]] ContactGeometry<Real> from_nearest(const Vec3<Real>& nearest, const Vec3<Real>& x,
+                                                 const Real& r, const Vec3<Real>& away) {
   const Vec3<Real> d = x - nearest;
   const Real distance = norm(d);
   const Vec3<Real> normal = distance == 0 ? away : d / distance;
@@ -66,8 +67,8 @@ template <RealType Real>
   const Real height = dot(n, x - t.a);
   const Vec3<Real> foot = x - height * n;
   // Inside, when the foot is left of every edge seen from the normal.
-  const bool inside = dot(cross(t.b - t.a, foot - t.a), n) >= 0 && dot(cross(t.c - t.b, foot - t.b), n) >= 0 &&
-                      dot(cross(t.a - t.c, foot - t.c), n) >= 0;
+  const bool inside = dot(cross(t.b - t.a, foot - t.a), n) >= 0 &&
+                      dot(cross(t.c - t.b, foot - t.b), n) >= 0 && dot(cross(t.a - t.c, foot - t.c), n) >= 0;
   if (!inside) return from_nearest(nearest_on_facet(t, x), x, r, n);
   const Vec3<Real> normal = height < 0 ? -n : n;
   const Real overlap = r - abs(height);
@@ -86,10 +87,12 @@ template <RealType Real>
   return {overlap, normal, x - (r - overlap / 2) * normal};
 }
 
-// A box of centre c, half sizes h (m) and orientation q.  A centre inside the box leaves through the nearest face.
+// A box of centre c, half sizes h (m) and orientation q.  A centre inside the box leaves through the nearest
+// face.
 template <RealType Real>
-[[nodiscard]] ContactGeometry<Real> box_sphere(const Vec3<Real>& c, const Vec3<Real>& h, const Quaternion<Real>& q,
-                                               const Vec3<Real>& x, const Real& r) {
+[[nodiscard]] ContactGeometry<Real> box_sphere(const Vec3<Real>& c, const Vec3<Real>& h,
+                                               const Quaternion<Real>& q, const Vec3<Real>& x,
+                                               const Real& r) {
   using std::abs;
   const Vec3<Real> local = rotate(conjugate(q), x - c);
   Vec3<Real> nearest = local;
@@ -117,8 +120,9 @@ template <RealType Real>
 
 // Velocity of body 2 relative to body 1 (m/s) where both surfaces meet, arms c = contact point - centre.
 template <RealType Real>
-[[nodiscard]] Vec3<Real> point_relative_velocity(const Vec3<Real>& arm1, const Vec3<Real>& arm2, const Vec3<Real>& v1,
-                                                 const Vec3<Real>& v2, const Vec3<Real>& w1, const Vec3<Real>& w2) {
+[[nodiscard]] Vec3<Real> point_relative_velocity(const Vec3<Real>& arm1, const Vec3<Real>& arm2,
+                                                 const Vec3<Real>& v1, const Vec3<Real>& v2,
+                                                 const Vec3<Real>& w1, const Vec3<Real>& w2) {
   return (v2 + cross(w2, arm2)) - (v1 + cross(w1, arm1));
 }
 

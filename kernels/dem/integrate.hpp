@@ -35,9 +35,8 @@ void spin_aspherical(SimulationState<Real>& s, std::size_t k) {
   if (b.fixed[i] != 0) return;
   const Vec3<Real> torque =
       s.parts.damping ? damped(b.torque[i], b.angular_velocity[i], s.dt, s.damping) : b.torque[i];
-  const AsphericalState<Real> next =
-      turned_aspherical<Real>({b.orientation[i], b.angular_momentum[k], b.angular_velocity[i]},
-                              b.principal_inertia[k], torque, s.dt);
+  const AsphericalState<Real> next = turned_aspherical<Real>(
+      {b.orientation[i], b.angular_momentum[k], b.angular_velocity[i]}, b.principal_inertia[k], torque, s.dt);
   b.orientation[i] = next.orientation;
   b.angular_momentum[k] = next.angular_momentum;
   b.angular_velocity[i] = next.angular_velocity;
@@ -49,9 +48,9 @@ template <RealType Real>
          std::binary_search(b.aspherical.begin(), b.aspherical.end(), static_cast<std::int32_t>(i));
 }
 
-// Adds to the energy account what the step from the velocities before it tells; called before body i moves on.
-// The interval since the step before was crossed with the velocity v(n-1/2), so that the work of a force on it is
-// the mean of its values at both ends times dt v(n-1/2): exact for the leapfrog.
+// Adds to the energy account what the step from the velocities before it tells; called before body i moves
+// on. The interval since the step before was crossed with the velocity v(n-1/2), so that the work of a force
+// on it is the mean of its values at both ends times dt v(n-1/2): exact for the leapfrog.
 template <RealType Real>
 void account_body(SimulationState<Real>& s, std::size_t i, bool spins) {
   Bodies<Real>& b = s.bodies;

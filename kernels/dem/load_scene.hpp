@@ -28,13 +28,14 @@ void load_bodies(SimulationState<Real>& s, const scenes::Assembly<Real>& a) {
       b.aspherical.push_back(static_cast<std::int32_t>(b.size() - 1));
       b.principal_inertia.push_back(body.inertia);
       const Vec3<Real> w = rotate(conjugate(body.orientation), body.angular_velocity);
-      b.angular_momentum.push_back(
-          rotate(body.orientation, Vec3<Real>{body.inertia.x * w.x, body.inertia.y * w.y, body.inertia.z * w.z}));
+      b.angular_momentum.push_back(rotate(
+          body.orientation, Vec3<Real>{body.inertia.x * w.x, body.inertia.y * w.y, body.inertia.z * w.z}));
     }
     if (parts.flats) {
       b.flat.push_back(body.shape == Shape::sphere ? -1 : static_cast<std::int32_t>(s.flats.size()));
       if (body.shape != Shape::sphere) {
-        s.flats.push_back({body.facet, body.half_size, body.orientation, static_cast<std::size_t>(body.axis)});
+        s.flats.push_back(
+            {body.facet, body.half_size, body.orientation, static_cast<std::size_t>(body.axis)});
       }
     }
   }
@@ -66,13 +67,15 @@ void load_bonds(SimulationState<Real>& s, const scenes::Assembly<Real>& a) {
     state.rest_overlap = (-norm(b2.position - b1.position) + b1.radius) + b2.radius;
     state.breakable = m1.breakable || m2.breakable ? 1 : 0;
     const Real r = smaller(b1.radius, b2.radius);
-    const Real cohesion = !m1.breakable ? m2.cohesion : !m2.breakable ? m1.cohesion : smaller(m1.cohesion, m2.cohesion);
+    const Real cohesion = !m1.breakable   ? m2.cohesion
+                          : !m2.breakable ? m1.cohesion
+                                          : smaller(m1.cohesion, m2.cohesion);
     state.strength.tension = cohesion * (r * r);
     state.strength.adhesion = smaller(m1.adhesion, m2.adhesion) * (r * r);
     if (s.parts.moments && m1.moments && m2.moments) {
       const ContactPhysics<Real> physics = frictional_physics(m1.elastic, b1.radius, m2.elastic, b2.radius);
-      state.bending_stiffness = bond_moment_stiffness(
-          b1.radius, b2.radius, physics.ks, smaller(m1.moment_stiffness, m2.moment_stiffness));
+      state.bending_stiffness = bond_moment_stiffness(b1.radius, b2.radius, physics.ks,
+                                                      smaller(m1.moment_stiffness, m2.moment_stiffness));
     }
     s.bonds.push_back(state);
   }

@@ -10,8 +10,8 @@ template <RealType Real>
   return x > 0 ? 1 : x < 0 ? -1 : 0;
 }
 
-// Non-viscous damping of one component (Cundall 1987): weakens an acceleration that speeds up, strengthens one that
-// slows down, judged by the velocity half a step on.  lambda in [0, 1).
+// Non-viscous damping of one component (Cundall 1987): weakens an acceleration that speeds up, strengthens
+// one that slows down, judged by the velocity half a step on.  lambda in [0, 1).
 template <RealType Real>
 [[nodiscard]] Real damped(const Real& a, const Real& v, const Real& dt, const Real& lambda) {
   const int sign = sign_of(Real(a * (v + dt * a / 2)));
@@ -20,7 +20,8 @@ template <RealType Real>
 }
 
 template <RealType Real>
-[[nodiscard]] Vec3<Real> damped(const Vec3<Real>& a, const Vec3<Real>& v, const Real& dt, const Real& lambda) {
+[[nodiscard]] Vec3<Real> damped(const Vec3<Real>& a, const Vec3<Real>& v, const Real& dt,
+                                const Real& lambda) {
   return {damped(a.x, v.x, dt, lambda), damped(a.y, v.y, dt, lambda), damped(a.z, v.z, dt, lambda)};
 }
 
@@ -42,8 +43,9 @@ void drift(Vec3<Real>& x, const Vec3<Real>& v, const Real& dt) {
   x += dt * v;
 }
 
-// Orientation after turning with angular velocity w (rad/s, space frame) for dt: q := AngleAxis(|w| dt, w/|w|) q,
-// normalised.  Exact for constant w.  A. Munjiza, J. P. Latham, N. W. M. John, Int. J. Numer. Meth. Eng. 56 (2003) 35.
+// Orientation after turning with angular velocity w (rad/s, space frame) for dt: q := AngleAxis(|w| dt,
+// w/|w|) q, normalised.  Exact for constant w.  A. Munjiza, J. P. Latham, N. W. M. John, Int. J. Numer. Meth.
+// Eng. 56 (2003) 35.
 template <RealType Real>
 [[nodiscard]] Quaternion<Real> turned(const Quaternion<Real>& q, const Vec3<Real>& w, const Real& dt) {
   const Real speed = norm(w);
@@ -53,9 +55,9 @@ template <RealType Real>
 
 template <RealType Real>
 struct AsphericalState {
-  Quaternion<Real> orientation;   // body -> space
-  Vec3<Real> angular_momentum;    // space frame, kg m^2/s, at the half step
-  Vec3<Real> angular_velocity;    // space frame, rad/s
+  Quaternion<Real> orientation;  // body -> space
+  Vec3<Real> angular_momentum;   // space frame, kg m^2/s, at the half step
+  Vec3<Real> angular_velocity;   // space frame, rad/s
 };
 
 // dq/dt = q (0, w_body)/2.
@@ -66,7 +68,8 @@ template <RealType Real>
 }
 
 template <RealType Real>
-[[nodiscard]] Quaternion<Real> advanced(const Quaternion<Real>& q, const Quaternion<Real>& rate, const Real& time) {
+[[nodiscard]] Quaternion<Real> advanced(const Quaternion<Real>& q, const Quaternion<Real>& rate,
+                                        const Real& time) {
   return {q.w + time * rate.w, q.x + time * rate.x, q.y + time * rate.y, q.z + time * rate.z};
 }
 
@@ -75,12 +78,13 @@ template <RealType Real>
   return {a.x / b.x, a.y / b.y, a.z / b.z};
 }
 
-// Rotation of a body with principal moments `inertia` (kg m^2, body frame), torque T (N m, space frame): the leapfrog
-// for rotational motion with explicit quaternion, D. Fincham, Molecular Simulation 8 (1992) 165; also M. P. Allen &
-// D. J. Tildesley, Computer Simulation of Liquids (1989), 3.3.1.
+// Rotation of a body with principal moments `inertia` (kg m^2, body frame), torque T (N m, space frame): the
+// leapfrog for rotational motion with explicit quaternion, D. Fincham, Molecular Simulation 8 (1992) 165;
+// also M. P. Allen & D. J. Tildesley, Computer Simulation of Liquids (1989), 3.3.1.
 template <RealType Real>
-[[nodiscard]] AsphericalState<Real> turned_aspherical(const AsphericalState<Real>& s, const Vec3<Real>& inertia,
-                                                      const Vec3<Real>& torque, const Real& dt) {
+[[nodiscard]] AsphericalState<Real> turned_aspherical(const AsphericalState<Real>& s,
+                                                      const Vec3<Real>& inertia, const Vec3<Real>& torque,
+                                                      const Real& dt) {
   const Quaternion<Real>& q = s.orientation;
   const Vec3<Real> l_now = s.angular_momentum + (dt / 2) * torque;
   const Vec3<Real> w_now = divided(rotate(conjugate(q), l_now), inertia);

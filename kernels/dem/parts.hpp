@@ -17,10 +17,10 @@ struct Parts {
   bool viscosity = true;
   bool gravity = true;
   bool damping = true;
-  bool flats = true;        // facets, boxes, walls
-  bool moments = true;      // twist and bending of bonds
-  bool third_axis = true;   // z
-  bool energy = true;       // energy account
+  bool flats = true;       // facets, boxes, walls
+  bool moments = true;     // twist and bending of bonds
+  bool third_axis = true;  // z
+  bool energy = true;      // energy account
 
   struct LeftOut {
     std::string part;
@@ -29,7 +29,9 @@ struct Parts {
   std::vector<LeftOut> left_out;
 
   // Bonds alone make the forces: the step needs no list of contacts.
-  [[nodiscard]] bool bonds_alone() const { return !collider && !shear && !rotation && !flats && !orientation; }
+  [[nodiscard]] bool bonds_alone() const {
+    return !collider && !shear && !rotation && !flats && !orientation;
+  }
 };
 
 // `all`: everything is switched on, nothing is left out.
@@ -41,8 +43,8 @@ template <RealType Real>
     part = false;
     p.left_out.push_back({name, std::move(why)});
   };
-  bool slips_never = true;   // no tangential force
-  bool damps_never = true;   // no dashpot
+  bool slips_never = true;  // no tangential force
+  bool damps_never = true;  // no dashpot
   bool moments = false;
   for (const auto& m : a.materials) {
     const bool adheres = scene.law == scenes::ContactLaw::cohesive && m.adhesion != 0;
@@ -69,7 +71,8 @@ template <RealType Real>
     leave(p.collider, "collider", "no two bodies can meet");
   }
   if (slips_never) {
-    leave(p.shear, "shear", "no pair of materials has friction, adhesion and a shear stiffness: no tangential force");
+    leave(p.shear, "shear",
+          "no pair of materials has friction, adhesion and a shear stiffness: no tangential force");
   }
   if (!moments) leave(p.moments, "moments", "no bond resists twist or bending");
   if (slips_never && !moments && !spins) {

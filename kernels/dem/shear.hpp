@@ -1,15 +1,17 @@
-// Tangential part of a contact: shear rotation, shear increment, Coulomb's cone, and the twist and bending of a bond.
+// Tangential part of a contact: shear rotation, shear increment, Coulomb's cone, and the twist and bending of
+// a bond.
 #pragma once
 
 #include "kernels/dem/vec3.hpp"
 
 namespace ulpgate::dem {
 
-// Turns the stored shear force with the contact plane: by the change of the normal, then by the mean spin of the pair
-// about it.  Both are first order in the step.  Cundall, Int. J. Rock Mech. Min. Sci. 25 (1988) 107.
+// Turns the stored shear force with the contact plane: by the change of the normal, then by the mean spin of
+// the pair about it.  Both are first order in the step.  Cundall, Int. J. Rock Mech. Min. Sci. 25 (1988) 107.
 template <RealType Real>
-[[nodiscard]] Vec3<Real> rotate_shear(const Vec3<Real>& shear, const Vec3<Real>& normal_old, const Vec3<Real>& normal,
-                                      const Vec3<Real>& w1, const Vec3<Real>& w2, const Real& dt) {
+[[nodiscard]] Vec3<Real> rotate_shear(const Vec3<Real>& shear, const Vec3<Real>& normal_old,
+                                      const Vec3<Real>& normal, const Vec3<Real>& w1, const Vec3<Real>& w2,
+                                      const Real& dt) {
   const Vec3<Real> tilt = cross(normal_old, normal);
   const Vec3<Real> spin = ((dt / 2) * dot(normal_old, w1 + w2)) * normal_old;
   const Vec3<Real> tilted = shear - cross(shear, tilt);
@@ -24,13 +26,13 @@ template <RealType Real>
 
 template <RealType Real>
 struct Friction {
-  Vec3<Real> shear;    // N, on the cone or inside it
+  Vec3<Real> shear;  // N, on the cone or inside it
   bool sliding = false;
   Real dissipation{0};  // J
 };
 
-// Cuts a trial shear force to the cone |Fs| <= limit (N).  `dissipation` = (Fs_trial - Fs).Fs / ks (J): the slip times
-// the force on it.  A limit of 0 leaves exactly no shear.
+// Cuts a trial shear force to the cone |Fs| <= limit (N).  `dissipation` = (Fs_trial - Fs).Fs / ks (J): the
+// slip times the force on it.  A limit of 0 leaves exactly no shear.
 template <RealType Real>
 [[nodiscard]] Friction<Real> cut_to_cone(const Vec3<Real>& trial, const Real& limit, const Real& ks) {
   using std::sqrt;
@@ -47,13 +49,14 @@ struct RelativeRotation {
   Vec3<Real> bending;  // rad, across it
 };
 
-// Rotation of body 2 against body 1 since the bond was made with orientations q1_start, q2_start, as rotation vector of
-// angle in (-pi, pi], split along and across the normal.  Unlike a sum of increments it is exact for any step.
-// Y. Wang, Acta Geotechnica 4 (2009) 117.
+// Rotation of body 2 against body 1 since the bond was made with orientations q1_start, q2_start, as rotation
+// vector of angle in (-pi, pi], split along and across the normal.  Unlike a sum of increments it is exact
+// for any step. Y. Wang, Acta Geotechnica 4 (2009) 117.
 template <RealType Real>
 [[nodiscard]] RelativeRotation<Real> twist_and_bending(const Quaternion<Real>& q1_start,
-                                                       const Quaternion<Real>& q2_start, const Quaternion<Real>& q1,
-                                                       const Quaternion<Real>& q2, const Vec3<Real>& normal) {
+                                                       const Quaternion<Real>& q2_start,
+                                                       const Quaternion<Real>& q1, const Quaternion<Real>& q2,
+                                                       const Vec3<Real>& normal) {
   const Quaternion<Real> turned1 = q1 * conjugate(q1_start);
   const Quaternion<Real> turned2 = q2 * conjugate(q2_start);
   const Vec3<Real> rotation = rotation_vector(turned2 * conjugate(turned1));

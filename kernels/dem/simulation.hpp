@@ -1,7 +1,8 @@
 // Simulation<Real>: the DEM step over a scene, with the parts that the scene needs, on any number of threads.
 //
-// Order of a step: forces := 0; collider; contacts in the order of their bodies' numbers: geometry, physics of new ones,
-// law; integration.  A body's force is the sum over its contacts in that order whatever the number of threads.
+// Order of a step: forces := 0; collider; contacts in the order of their bodies' numbers: geometry, physics
+// of new ones, law; integration.  A body's force is the sum over its contacts in that order whatever the
+// number of threads.
 #pragma once
 
 #include "kernels/dem/bond_step.hpp"
@@ -66,7 +67,9 @@ class Simulation {
   }
 
   // Bytes of the arrays of the state.
-  [[nodiscard]] std::size_t memory() const { return memory_of(s_) + collider_.memory() + slots_.capacity() * sizeof(PairForce<Real>); }
+  [[nodiscard]] std::size_t memory() const {
+    return memory_of(s_) + collider_.memory() + slots_.capacity() * sizeof(PairForce<Real>);
+  }
 
  private:
   void step_once() {
@@ -100,7 +103,8 @@ class Simulation {
     }
   }
 
-  // Every pair writes its own slot, then every body sums its slots in the order of the pairs: the serial order.
+  // Every pair writes its own slot, then every body sums its slots in the order of the pairs: the serial
+  // order.
   void contacts_threaded(const ContactPass<Real>& pass) {
     const auto count = static_cast<std::int64_t>(s_.contacts.size());
     if (slots_.size() < s_.contacts.size()) {

@@ -26,8 +26,9 @@ struct SimulationState {
 };
 
 template <RealType Real>
-[[nodiscard]] ContactPass<Real> contact_pass_of(SimulationState<Real>& s, const std::vector<CoarseSphere>& coarse) {
-  return {s.parts,  s.law,    s.bonded_only, s.materials, s.dt,  s.iteration == 0,
+[[nodiscard]] ContactPass<Real> contact_pass_of(SimulationState<Real>& s,
+                                                const std::vector<CoarseSphere>& coarse) {
+  return {s.parts,  s.law,   s.bonded_only, s.materials, s.dt,  s.iteration == 0,
           s.bodies, s.flats, s.contacts,    s.bonds,     coarse};
 }
 
@@ -111,8 +112,8 @@ void visit_state(Archive& a, SimulationState<Real>& s) {
     a.constant("bending_stiffness", bond.bending_stiffness);
   }
   Energies<Real>& e = s.energies;
-  for (Real* x : {&e.kinetic, &e.rotational, &e.elastic, &e.potential, &e.friction, &e.damping, &e.viscous, &e.broken,
-                  &e.work}) {
+  for (Real* x : {&e.kinetic, &e.rotational, &e.elastic, &e.potential, &e.friction, &e.damping, &e.viscous,
+                  &e.broken, &e.work}) {
     a.field("energy", *x);
   }
   Contacts<Real>& c = s.contacts;
@@ -152,14 +153,16 @@ void visit_state(Archive& a, SimulationState<Real>& s) {
   }
   if constexpr (Archive::reading) {
     const auto bodies = b.size();
-    const bool sized = b.position.size() == bodies && b.velocity.size() == bodies && b.radius.size() == bodies &&
-                       b.mass.size() == bodies && (!s.parts.rotation || b.angular_velocity.size() == bodies) &&
+    const bool sized = b.position.size() == bodies && b.velocity.size() == bodies &&
+                       b.radius.size() == bodies && b.mass.size() == bodies &&
+                       (!s.parts.rotation || b.angular_velocity.size() == bodies) &&
                        (!s.parts.orientation || b.orientation.size() == bodies) &&
                        b.angular_momentum.size() == b.aspherical.size();
     if (!sized) throw ArchiveError("the state has another number of bodies than the scene");
     for (const BodyPair& pair : c.pair) {
       const auto n = static_cast<std::int32_t>(bodies);
-      if (pair.first < 0 || pair.second <= pair.first || pair.second >= n) throw ArchiveError("a pair names no bodies");
+      if (pair.first < 0 || pair.second <= pair.first || pair.second >= n)
+        throw ArchiveError("a pair names no bodies");
     }
   }
 }
@@ -175,8 +178,8 @@ template <RealType Real>
   return bytes(b.shape, b.fixed, b.material, b.flat, b.position, b.velocity, b.force, b.radius, b.mass,
                b.angular_velocity, b.torque, b.inertia, b.orientation, b.aspherical, b.principal_inertia,
                b.angular_momentum, b.damping_before, b.damping_torque_before, b.force_before) +
-         bytes(c.pair, c.touching, c.bond, c.kn, c.ks, c.tan_friction, c.cn, c.cs, c.shear, c.normal, c.elastic,
-               c.friction_loss, c.viscous_loss, c.broken_loss, c.viscous_before) +
+         bytes(c.pair, c.touching, c.bond, c.kn, c.ks, c.tan_friction, c.cn, c.cs, c.shear, c.normal,
+               c.elastic, c.friction_loss, c.viscous_loss, c.broken_loss, c.viscous_before) +
          bytes(s.flats, s.bonds, s.materials);
 }
 

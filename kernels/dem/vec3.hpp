@@ -1,7 +1,7 @@
 // Vec3 and Quaternion of any Real, with the order of every sum spelled out.
 //
-// Eigen's fixed-size reductions choose their own order of summation; a trajectory that must repeat to the last bit in
-// every type and on any number of threads states it here: sums run left to right.
+// Eigen's fixed-size reductions choose their own order of summation; a trajectory that must repeat to the
+// last bit in every type and on any number of threads states it here: sums run left to right.
 #pragma once
 
 #include <cmath>
@@ -66,8 +66,9 @@ struct Quaternion {
   Real w{1}, x{0}, y{0}, z{0};
 
   friend Quaternion operator*(const Quaternion& a, const Quaternion& b) {
-    return {((a.w * b.w - a.x * b.x) - a.y * b.y) - a.z * b.z, ((a.w * b.x + a.x * b.w) + a.y * b.z) - a.z * b.y,
-            ((a.w * b.y + a.y * b.w) + a.z * b.x) - a.x * b.z, ((a.w * b.z + a.z * b.w) + a.x * b.y) - a.y * b.x};
+    return {
+        ((a.w * b.w - a.x * b.x) - a.y * b.y) - a.z * b.z, ((a.w * b.x + a.x * b.w) + a.y * b.z) - a.z * b.y,
+        ((a.w * b.y + a.y * b.w) + a.z * b.x) - a.x * b.z, ((a.w * b.z + a.z * b.w) + a.x * b.y) - a.y * b.x};
   }
   friend bool operator==(const Quaternion&, const Quaternion&) = default;
 };

@@ -1,4 +1,5 @@
-// Assembly<Real>: the bodies, materials and run parameters of a scene as numbers, every constant made in Real.
+// Assembly<Real>: the bodies, materials and run parameters of a scene as numbers, every constant made in
+// Real.
 #pragma once
 
 #include <map>
@@ -28,9 +29,9 @@ struct Body {
   dem::Vec3<Real> inertia;  // principal moments
   bool aspherical = false;
   dem::Quaternion<Real> orientation;
-  dem::Facet<Real> facet;        // facets: vertices
-  dem::Vec3<Real> half_size;     // boxes
-  int axis = 0;                  // walls
+  dem::Facet<Real> facet;     // facets: vertices
+  dem::Vec3<Real> half_size;  // boxes
+  int axis = 0;               // walls
 };
 
 template <RealType Real>
@@ -83,7 +84,8 @@ class Assembler {
   }
 
  private:
-  // Adding +0 turns a negative zero into a positive one, so that leaving a zero part out can never show in a sign.
+  // Adding +0 turns a negative zero into a positive one, so that leaving a zero part out can never show in a
+  // sign.
   dem::Vec3<Real> vec(const Triple& t) const {
     return {evaluate_(t[0]) + Real(0), evaluate_(t[1]) + Real(0), evaluate_(t[2]) + Real(0)};
   }
@@ -101,8 +103,8 @@ class Assembler {
     MaterialValues<Real> v;
     v.density = evaluate_(m.density);
     v.elastic = {evaluate_(m.young), evaluate_(m.poisson), radians(m.friction_angle)};
-    v.collision = {evaluate_(m.collision_time), evaluate_(m.restitution_normal), evaluate_(m.restitution_tangential),
-                   radians(m.friction_angle)};
+    v.collision = {evaluate_(m.collision_time), evaluate_(m.restitution_normal),
+                   evaluate_(m.restitution_tangential), radians(m.friction_angle)};
     v.breakable = m.cohesion.has_value();
     if (m.cohesion) v.cohesion = evaluate_(*m.cohesion);
     v.adhesion = evaluate_(m.adhesion);
@@ -121,13 +123,15 @@ class Assembler {
     b.material = material;
     b.position = position;
     b.radius = radius;
-    b.mass = scene_.mass_rule == MassRule::yade ? contaminated_mass(radius, material) : sphere_mass(radius, material);
+    b.mass = scene_.mass_rule == MassRule::yade ? contaminated_mass(radius, material)
+                                                : sphere_mass(radius, material);
     const Real moment = dem::sphere_inertia(b.mass, radius);
     b.inertia = {moment, moment, moment};
     out_.bodies.push_back(b);
   }
 
-  // The mass as YADE has it: 4/3 pi r^3 rho with every operation in double, whatever the Real (see pendulum3.toml).
+  // The mass as YADE has it: 4/3 pi r^3 rho with every operation in double, whatever the Real (see
+  // pendulum3.toml).
   Real contaminated_mass(const Real& radius, int material) const {
     const auto r = static_cast<double>(radius);
     const auto rho = static_cast<double>(out_.materials[static_cast<std::size_t>(material)].density);
@@ -186,7 +190,8 @@ class Assembler {
       for (const auto& facet : facet_box(vec(g.centre), vec(g.half_size))) add_facet(facet, material);
     } else if (g.kind == GeneratorKind::hexagonal_ball) {
       const Real radius = evaluate_(g.radius);
-      for (const auto& p : hexagonal_ball(radius, evaluate_(g.gap), evaluate_(g.ball_radius), vec(g.corner))) {
+      for (const auto& p :
+           hexagonal_ball(radius, evaluate_(g.gap), evaluate_(g.ball_radius), vec(g.corner))) {
         add_ball(p, radius, material, false);
       }
     } else {
@@ -213,7 +218,8 @@ class Assembler {
       }
     }
     const auto key = [](const Bond& b) { return std::pair(b.first, b.second); };
-    std::sort(out_.bonds.begin(), out_.bonds.end(), [&](const Bond& a, const Bond& b) { return key(a) < key(b); });
+    std::sort(out_.bonds.begin(), out_.bonds.end(),
+              [&](const Bond& a, const Bond& b) { return key(a) < key(b); });
     const auto same = [&](const Bond& a, const Bond& b) { return key(a) == key(b); };
     out_.bonds.erase(std::unique(out_.bonds.begin(), out_.bonds.end(), same), out_.bonds.end());
   }

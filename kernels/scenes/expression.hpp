@@ -1,7 +1,8 @@
-// Expressions of a scene: decimal numbers, + - * / ( ), named constants, pi, sqrt sin cos tan exp log; in any Real.
+// Expressions of a scene: decimal numbers, + - * / ( ), named constants, pi, sqrt sin cos tan exp log; in any
+// Real.
 //
-// Every literal is rounded once to Real and every operation runs in Real, left to right, so a scene means the same
-// sequence of operations in every precision and no constant passes through double.
+// Every literal is rounded once to Real and every operation runs in Real, left to right, so a scene means the
+// same sequence of operations in every precision and no constant passes through double.
 #pragma once
 
 #include <boost/math/constants/constants.hpp>
@@ -42,7 +43,8 @@ class Evaluator {
     int depth = 0;
 
     [[noreturn]] void fail(const std::string& what) const {
-      throw ExpressionError("'" + std::string(text) + "': " + what + " at character " + std::to_string(at + 1));
+      throw ExpressionError("'" + std::string(text) + "': " + what + " at character " +
+                            std::to_string(at + 1));
     }
     void skip_space() {
       while (at < text.size() && text[at] == ' ') ++at;
@@ -125,7 +127,8 @@ class Evaluator {
       using std::sqrt;
       using std::tan;
       const std::size_t begin = at;
-      while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
+      while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_'))
+        ++at;
       const std::string word(text.substr(begin, at - begin));
       if (peek() == '(') {
         ++at;

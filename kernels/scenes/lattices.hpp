@@ -10,11 +10,13 @@
 
 namespace ulpgate::scenes {
 
-// Centres of a hexagonal closest packing of spheres (radius r, surfaces `gap` apart, m) that lie wholly in the ball of
-// `ball_radius` about the origin.  Lattice a/2 (2i + (j+k) mod 2, sqrt3 (j + (k mod 2)/3), 2 sqrt6/3 k), a = 2r + gap,
-// counted from `corner`.  J. H. Conway & N. J. A. Sloane, Sphere Packings, Lattices and Groups (1999).
+// Centres of a hexagonal closest packing of spheres (radius r, surfaces `gap` apart, m) that lie wholly in
+// the ball of `ball_radius` about the origin.  Lattice a/2 (2i + (j+k) mod 2, sqrt3 (j + (k mod 2)/3), 2
+// sqrt6/3 k), a = 2r + gap, counted from `corner`.  J. H. Conway & N. J. A. Sloane, Sphere Packings, Lattices
+// and Groups (1999).
 template <RealType Real>
-[[nodiscard]] std::vector<dem::Vec3<Real>> hexagonal_ball(const Real& r, const Real& gap, const Real& ball_radius,
+[[nodiscard]] std::vector<dem::Vec3<Real>> hexagonal_ball(const Real& r, const Real& gap,
+                                                          const Real& ball_radius,
                                                           const dem::Vec3<Real>& corner) {
   using std::sqrt;
   const Real a = 2 * r + gap;
@@ -22,7 +24,7 @@ template <RealType Real>
   const Real layer = 2 * sqrt(Real(6)) / 3;
   const auto along = [&](const Real& step, const Real& from) {
     int n = 0;
-    while (from + n * step <= ball_radius) ++n;
+    while (from + Real(n) * step <= ball_radius) ++n;
     return n + 1;
   };
   const int ni = along(a, corner.x);
@@ -32,9 +34,10 @@ template <RealType Real>
   for (int i = 0; i < ni; ++i) {
     for (int j = 0; j < nj; ++j) {
       for (int k = 0; k < nk; ++k) {
-        const dem::Vec3<Real> p = (a / 2) * dem::Vec3<Real>{Real(2 * i + (j + k) % 2),
-                                                            sqrt3 * (j + Real(k % 2) / 3), layer * k} +
-                                  corner;
+        const dem::Vec3<Real> p =
+            (a / 2) * dem::Vec3<Real>{Real(2 * i + (j + k) % 2), sqrt3 * (Real(j) + Real(k % 2) / 3),
+                                      layer * Real(k)} +
+            corner;
         if (dem::norm(p) <= ball_radius - r) centres.push_back(p);
       }
     }
@@ -42,8 +45,8 @@ template <RealType Real>
   return centres;
 }
 
-// A random number on [0, 1) with 24 bits, the same exact value in every Real.  Philox4x64-10: Salmon et al., "Parallel
-// random numbers: as easy as 1, 2, 3", SC'11.
+// A random number on [0, 1) with 24 bits, the same exact value in every Real.  Philox4x64-10: Salmon et al.,
+// "Parallel random numbers: as easy as 1, 2, 3", SC'11.
 template <RealType Real>
 [[nodiscard]] Real uniform(int seed, std::uint64_t point, std::size_t coordinate) {
   const r123::Philox4x64::ctr_type counter{{point, 0, 0, 0}};
@@ -62,9 +65,10 @@ struct GridNode {
 // Spheres at corner + (i, j, k) * spacing, each moved by up to `jitter` along every axis (m), of radius
 // `radius` (1 -+ spread).
 template <RealType Real>
-[[nodiscard]] std::vector<GridNode<Real>> grid(const std::array<int, 3>& counts, const dem::Vec3<Real>& spacing,
-                                               const dem::Vec3<Real>& corner, const Real& jitter, const Real& radius,
-                                               const Real& spread, int seed) {
+[[nodiscard]] std::vector<GridNode<Real>> grid(const std::array<int, 3>& counts,
+                                               const dem::Vec3<Real>& spacing, const dem::Vec3<Real>& corner,
+                                               const Real& jitter, const Real& radius, const Real& spread,
+                                               int seed) {
   std::vector<GridNode<Real>> nodes;
   for (int i = 0; i < counts[0]; ++i) {
     for (int j = 0; j < counts[1]; ++j) {
@@ -72,9 +76,9 @@ template <RealType Real>
         const auto signed_unit = [&, point = nodes.size()](std::size_t c) {
           return Real(2 * uniform<Real>(seed, point, c) - 1);
         };
-        const dem::Vec3<Real> p{corner.x + i * spacing.x + jitter * signed_unit(0),
-                                corner.y + j * spacing.y + jitter * signed_unit(1),
-                                corner.z + k * spacing.z + jitter * signed_unit(2)};
+        const dem::Vec3<Real> p{corner.x + Real(i) * spacing.x + jitter * signed_unit(0),
+                                corner.y + Real(j) * spacing.y + jitter * signed_unit(1),
+                                corner.z + Real(k) * spacing.z + jitter * signed_unit(2)};
         nodes.push_back({p, radius * (1 + spread * signed_unit(3)), i});
       }
     }
@@ -84,9 +88,11 @@ template <RealType Real>
 
 // Two triangles for each side of a box.
 template <RealType Real>
-[[nodiscard]] std::vector<dem::Facet<Real>> facet_box(const dem::Vec3<Real>& centre, const dem::Vec3<Real>& half) {
+[[nodiscard]] std::vector<dem::Facet<Real>> facet_box(const dem::Vec3<Real>& centre,
+                                                      const dem::Vec3<Real>& half) {
   const auto at = [&](int sx, int sy, int sz) {
-    return dem::Vec3<Real>{centre.x + sx * half.x, centre.y + sy * half.y, centre.z + sz * half.z};
+    return dem::Vec3<Real>{centre.x + Real(sx) * half.x, centre.y + Real(sy) * half.y,
+                           centre.z + Real(sz) * half.z};
   };
   std::vector<dem::Facet<Real>> facets;
   const auto quad = [&](const auto& a, const auto& b, const auto& c, const auto& d) {

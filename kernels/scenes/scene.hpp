@@ -10,32 +10,34 @@
 
 namespace ulpgate::scenes {
 
-// An expression (expression.hpp), evaluated once in the Real of the run: "0.1", "0.5/30.77", "L*cos(20*pi/180)".
+// An expression (expression.hpp), evaluated once in the Real of the run: "0.1", "0.5/30.77",
+// "L*cos(20*pi/180)".
 using Expression = std::string;
 using Triple = std::array<Expression, 3>;
 
-// frictional: Cundall-Strack; viscoelastic: Pournin; hertz_mindlin; cohesive: bonds that pull, frictional once broken.
+// frictional: Cundall-Strack; viscoelastic: Pournin; hertz_mindlin; cohesive: bonds that pull, frictional
+// once broken.
 enum class ContactLaw { frictional, viscoelastic, hertz_mindlin, cohesive };
 // Which bodies may touch: all, or only those that a bond joins.
 enum class ContactsBetween { all, bonded };
-// full: every constant in the precision of the run; yade: masses of spheres computed in double and widened, the
-// contamination described in the scene `pendulum3`.
+// full: every constant in the precision of the run; yade: masses of spheres computed in double and widened,
+// the contamination described in the scene `pendulum3`.
 enum class MassRule { full, yade };
 
 struct Material {
   std::string name;
-  Expression density = "1000";     // kg/m^3
-  Expression young = "1e7";        // Pa
-  Expression poisson = "0";        //
-  Expression friction_angle = "0"; // degrees
+  Expression density = "1000";      // kg/m^3
+  Expression young = "1e7";         // Pa
+  Expression poisson = "0";         //
+  Expression friction_angle = "0";  // degrees
   // viscoelastic
-  Expression collision_time = "1e-3";         // s
-  Expression restitution_normal = "1";        // (0, 1]
-  Expression restitution_tangential = "1";    // (0, 1]
+  Expression collision_time = "1e-3";       // s
+  Expression restitution_normal = "1";      // (0, 1]
+  Expression restitution_tangential = "1";  // (0, 1]
   // cohesive; a bond without `cohesion` never breaks
-  std::optional<Expression> cohesion;         // Pa: breaks when it pulls more than cohesion * min(r)^2
-  Expression adhesion = "0";                  // Pa: shear limit at no normal force over min(r)^2
-  std::optional<Expression> moment_stiffness; // alpha of kr = ktw = r1 r2 ks alpha; none: no moments
+  std::optional<Expression> cohesion;          // Pa: breaks when it pulls more than cohesion * min(r)^2
+  Expression adhesion = "0";                   // Pa: shear limit at no normal force over min(r)^2
+  std::optional<Expression> moment_stiffness;  // alpha of kr = ktw = r1 r2 ks alpha; none: no moments
 };
 
 struct SphereSpec {
@@ -45,8 +47,8 @@ struct SphereSpec {
   Expression radius;                       // m
   std::string material;
   bool fixed = false;
-  std::optional<Expression> mass;   // kg; else density * volume
-  std::optional<Triple> inertia;    // kg m^2, principal moments: the body is aspherical
+  std::optional<Expression> mass;  // kg; else density * volume
+  std::optional<Triple> inertia;   // kg m^2, principal moments: the body is aspherical
 };
 
 // Fixed bodies.
@@ -55,16 +57,16 @@ struct FacetSpec {
   std::string material;
 };
 struct WallSpec {
-  int axis = 1;                    // 0, 1, 2: the plane's normal
-  Expression position = "0";       // m along it
-  Expression velocity = "0";       // m/s along it, prescribed
+  int axis = 1;               // 0, 1, 2: the plane's normal
+  Expression position = "0";  // m along it
+  Expression velocity = "0";  // m/s along it, prescribed
   std::string material;
 };
 struct BoxSpec {
   Triple centre{"0", "0", "0"};
   Triple half_size;
-  Triple axis{"0", "0", "1"};      // rotated about it (any length)
-  Expression angle = "0";          // degrees
+  Triple axis{"0", "0", "1"};  // rotated about it (any length)
+  Expression angle = "0";      // degrees
   std::string material;
 };
 
@@ -75,17 +77,17 @@ enum class GeneratorKind { hexagonal_ball, grid, facet_box };
 struct Generator {
   GeneratorKind kind{};
   std::string material;
-  Expression radius;                       // hexagonal_ball, grid
-  Expression gap = "0";                    // hexagonal_ball, between neighbours
-  Expression ball_radius;                  // hexagonal_ball
-  Triple corner{"0", "0", "0"};            // hexagonal_ball, grid: of the first lattice point
-  std::array<int, 3> counts{1, 1, 1};      // grid
-  Triple spacing{"0", "0", "0"};           // grid
-  Expression jitter = "0";                 // grid: each centre moves by up to this along each axis (m)
-  Expression radius_spread = "0";          // grid: radii on radius (1 - spread, 1 + spread)
-  int seed = 1;                            // grid
-  int fixed_layers = 0;                    // grid: so many first layers along x are fixed
-  Triple centre{"0", "0", "0"}, half_size; // facet_box
+  Expression radius;                        // hexagonal_ball, grid
+  Expression gap = "0";                     // hexagonal_ball, between neighbours
+  Expression ball_radius;                   // hexagonal_ball
+  Triple corner{"0", "0", "0"};             // hexagonal_ball, grid: of the first lattice point
+  std::array<int, 3> counts{1, 1, 1};       // grid
+  Triple spacing{"0", "0", "0"};            // grid
+  Expression jitter = "0";                  // grid: each centre moves by up to this along each axis (m)
+  Expression radius_spread = "0";           // grid: radii on radius (1 - spread, 1 + spread)
+  int seed = 1;                             // grid
+  int fixed_layers = 0;                     // grid: so many first layers along x are fixed
+  Triple centre{"0", "0", "0"}, half_size;  // facet_box
 };
 
 struct Bond {
@@ -97,25 +99,26 @@ struct Scene {
   std::string title;
   std::vector<std::pair<std::string, Expression>> constants;  // each may use those before it
   std::vector<Material> materials;
-  std::vector<SphereSpec> spheres;      // the bodies' numbers run in this order:
-  std::vector<Generator> generators;    // spheres, generators, facets, boxes, walls
+  std::vector<SphereSpec> spheres;    // the bodies' numbers run in this order:
+  std::vector<Generator> generators;  // spheres, generators, facets, boxes, walls
   std::vector<FacetSpec> facets;
   std::vector<BoxSpec> boxes;
   std::vector<WallSpec> walls;
   std::vector<Bond> bonds;
-  std::optional<Expression> bond_reach;  // spheres nearer than this times the sum of radii are bonded at the start
+  std::optional<Expression>
+      bond_reach;  // spheres nearer than this times the sum of radii are bonded at the start
 
   ContactLaw law = ContactLaw::frictional;
   ContactsBetween between = ContactsBetween::all;
   MassRule mass_rule = MassRule::full;
 
-  Expression dt;                        // s
-  Expression until;                     // s
-  Triple gravity{"0", "0", "0"};        // m/s^2
-  Expression damping = "0";             // lambda
-  std::optional<Expression> sweep;      // m, Verlet distance; else from the smallest radius
-  std::vector<std::string> record;      // quantities a run reports: "energy", "positions", "orientation", ...
-  Expression record_every;              // s; empty: at the end only
+  Expression dt;                    // s
+  Expression until;                 // s
+  Triple gravity{"0", "0", "0"};    // m/s^2
+  Expression damping = "0";         // lambda
+  std::optional<Expression> sweep;  // m, Verlet distance; else from the smallest radius
+  std::vector<std::string> record;  // quantities a run reports: "energy", "positions", "orientation", ...
+  Expression record_every;          // s; empty: at the end only
 
   [[nodiscard]] bool records(std::string_view what) const {
     for (const std::string& r : record) {

@@ -69,7 +69,8 @@ std::optional<SceneError> apply_override(Scene& scene, std::string_view key_valu
   Evaluator<double> constants;
   *target.value = value;
   for (const auto& [name, text] : changed.constants) {
-    if (const std::string fault = number_fault(constants, text, Range::any); !fault.empty()) return error(key, fault);
+    if (const std::string fault = number_fault(constants, text, Range::any); !fault.empty())
+      return error(key, fault);
     constants.define(name, constants(text));
   }
   if (const std::string fault = number_fault(constants, value, target.range); !fault.empty()) {

@@ -14,11 +14,13 @@ const std::vector<std::string> recordable = {"energy",   "positions", "velocitie
                                              "rotation", "contacts",  "angles"};
 
 // Calls `read` on every table of the array of tables `key`, with path "key[i]".
-void each_table(Document& document, Fields& root, std::string_view key, const std::function<void(Fields&)>& read) {
+void each_table(Document& document, Fields& root, std::string_view key,
+                const std::function<void(Fields&)>& read) {
   const toml::node* node = root.find(key);
   if (node == nullptr) return;
   const toml::array* array = node->as_array();
-  if (array == nullptr) return root.fail(node, key, "must be an array of tables: [[" + std::string(key) + "]]");
+  if (array == nullptr)
+    return root.fail(node, key, "must be an array of tables: [[" + std::string(key) + "]]");
   for (std::size_t i = 0; i < array->size(); ++i) {
     const std::string path = std::string(key) + "[" + std::to_string(i) + "]";
     const toml::table* table = (*array)[i].as_table();
@@ -228,12 +230,14 @@ void read_bonds(Document& document, Fields& root, Scene& scene) {
     const std::int64_t a = (*array)[0].as_integer()->get();
     const std::int64_t b = (*array)[1].as_integer()->get();
     if (a == b || a < 0 || b < 0 || a >= count || b >= count) {
-      return f.fail(node, "bodies", "must be two of the " + std::to_string(count) + " spheres, numbered from 0");
+      return f.fail(node, "bodies",
+                    "must be two of the " + std::to_string(count) + " spheres, numbered from 0");
     }
     bond.first = static_cast<int>(std::min(a, b));
     bond.second = static_cast<int>(std::max(a, b));
     for (const Bond& other : scene.bonds) {
-      if (other.first == bond.first && other.second == bond.second) f.fail(node, "bodies", "are bonded twice");
+      if (other.first == bond.first && other.second == bond.second)
+        f.fail(node, "bodies", "are bonded twice");
     }
     scene.bonds.push_back(bond);
   });
@@ -272,7 +276,8 @@ ReadResult read_scene(std::string_view text, std::string_view file) {
   each_table(document, root, "facet", [&](Fields& f) { read_facet(f, scene); });
   each_table(document, root, "wall", [&](Fields& f) { read_wall(f, scene); });
   each_table(document, root, "box", [&](Fields& f) { read_box(f, scene); });
-  if (scene.spheres.empty() && scene.generators.empty()) root.fail(nullptr, "sphere", "a scene needs one body at least");
+  if (scene.spheres.empty() && scene.generators.empty())
+    root.fail(nullptr, "sphere", "a scene needs one body at least");
   read_bonds(document, root, scene);
   read_contacts(document, root, scene);
   if ((!scene.bonds.empty() || scene.bond_reach) && scene.law != ContactLaw::cohesive) {

@@ -11,7 +11,8 @@ std::string float_text(const Document& document, const toml::node& node) {
   if (begin.line == 0 || begin.line > document.lines.size()) return {};
   const std::string& line = document.lines[begin.line - 1];
   // Columns count code points: only lines of plain ASCII up to here can be indexed.
-  if (std::any_of(line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) > 127; })) return {};
+  if (std::any_of(line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) > 127; }))
+    return {};
   std::string text;
   for (std::size_t i = begin.column - 1; i < line.size(); ++i) {
     const char c = line[i];
@@ -31,12 +32,16 @@ std::string number_fault(const Evaluator<double>& constants, std::string_view te
   }
   if (!std::isfinite(value)) return "'" + std::string(text) + "' is not finite";
   switch (range) {
-    case Range::any: return {};
-    case Range::not_negative: return value >= 0 ? "" : "must not be negative, is " + std::string(text);
-    case Range::positive: return value > 0 ? "" : "must be positive, is " + std::string(text);
+    case Range::any:
+      return {};
+    case Range::not_negative:
+      return value >= 0 ? "" : "must not be negative, is " + std::string(text);
+    case Range::positive:
+      return value > 0 ? "" : "must be positive, is " + std::string(text);
     case Range::unit_open_closed:
       return value > 0 && value <= 1 ? "" : "must be above 0 and at most 1, is " + std::string(text);
-    case Range::below_one: return value >= 0 && value < 1 ? "" : "must be on [0, 1), is " + std::string(text);
+    case Range::below_one:
+      return value >= 0 && value < 1 ? "" : "must be on [0, 1), is " + std::string(text);
   }
   return {};
 }

@@ -1,4 +1,5 @@
-// Fields: reads one TOML table, key by key, collecting errors with their lines; a key nobody asked for is an error.
+// Fields: reads one TOML table, key by key, collecting errors with their lines; a key nobody asked for is an
+// error.
 #pragma once
 
 #include <toml++/toml.h>
@@ -33,7 +34,8 @@ struct Document {
 [[nodiscard]] std::string float_text(const Document& document, const toml::node& node);
 
 // Why `text` is not a number in `range`; empty when it is.
-[[nodiscard]] std::string number_fault(const Evaluator<double>& constants, std::string_view text, Range range);
+[[nodiscard]] std::string number_fault(const Evaluator<double>& constants, std::string_view text,
+                                       Range range);
 
 class Fields {
  public:
