@@ -48,12 +48,8 @@ Json type_rows(const std::vector<std::string>& tokens) {
 
 namespace {
 
-// What every kind of run says about itself; `columns` are the keys of its own.
-template <class AnyPlan>
-Json context_of(const AnyPlan& plan, const std::vector<std::string>& shards, unsigned threads,
-                bool complete) {
-  Json strata = Json::array();
-  for (const auto s : plan.request().strata) strata.push_back(name_of(s));
+// What every kind of run says about itself.
+Json build_and_machine() {
   Json c;
   c["tool"] = {{"name", "ulpgate"}, {"version", build_facts::version}};
   c["compiler"] = build_facts::compiler;
@@ -67,6 +63,16 @@ Json context_of(const AnyPlan& plan, const std::vector<std::string>& shards, uns
       {"GMP", gmp_version},
       {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
   c["cpu"] = cpu_name();
+  return c;
+}
+
+// And a run over strata of samples.
+template <class AnyPlan>
+Json context_of(const AnyPlan& plan, const std::vector<std::string>& shards, unsigned threads,
+                bool complete) {
+  Json strata = Json::array();
+  for (const auto s : plan.request().strata) strata.push_back(name_of(s));
+  Json c = build_and_machine();
   c["seed"] = plan.request().seed;
   c["samples"] = plan.request().samples;
   c["strata"] = strata;
@@ -114,6 +120,17 @@ Json make_context(const KernelPlan& plan, const std::vector<std::string>& shards
   }
   Json c = context_of(plan, shards, threads, complete);
   c["kernels"] = kernels;
+  return c;
+}
+
+Json make_scene_context(const std::string& plan, const std::string& plan_text,
+                        const std::vector<std::string>& types, unsigned threads, bool complete) {
+  Json c = build_and_machine();
+  c["plan"] = plan;
+  c["plan_text"] = plan_text;
+  c["threads"] = threads;
+  c["complete"] = complete;
+  c["types"] = type_rows(types);
   return c;
 }
 

@@ -3,6 +3,7 @@
 
 #include "harness/app/commands.hpp"
 #include "harness/app/context.hpp"
+#include "harness/app/scene_files.hpp"
 
 namespace ulpgate::app {
 
@@ -84,15 +85,29 @@ void list_kernels(bool json) {
   if (json) fmt::print("{}\n", rows.dump(2));
 }
 
+void list_scenes(bool json) {
+  Json rows = Json::array();
+  for (const auto& builtin : builtin_scenes()) {
+    const auto scene = load_scene(builtin.name, {}).scene;
+    if (json) {
+      rows.push_back(
+          {{"scene", scene.name}, {"title", scene.title}, {"dt", scene.dt}, {"until", scene.until}});
+    } else {
+      fmt::print("{:<12} {} (dt {} s, until {} s)\n", scene.name, scene.title, scene.dt, scene.until);
+    }
+  }
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
 }  // namespace
 
 void add_list_command(CLI::App& app, Action& action) {
-  auto* list = app.add_subcommand("list", "List functions, types, strata or kernels");
+  auto* list = app.add_subcommand("list", "List functions, types, strata, kernels or scenes");
   auto what = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  list->add_option("what", *what, "functions, types, strata or kernels")
+  list->add_option("what", *what, "functions, types, strata, kernels or scenes")
       ->required()
-      ->check(CLI::IsMember({"functions", "types", "strata", "kernels"}));
+      ->check(CLI::IsMember({"functions", "types", "strata", "kernels", "scenes"}));
   list->add_flag("--json", *json, "Print JSON");
   list->callback([=, &action] {
     action = [=] {
@@ -100,6 +115,7 @@ void add_list_command(CLI::App& app, Action& action) {
       if (*what == "types") list_types(*json);
       if (*what == "strata") list_strata(*json);
       if (*what == "kernels") list_kernels(*json);
+      if (*what == "scenes") list_scenes(*json);
       return ExitCode::pass;
     };
   });

@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 // The files of a run's directory; a directory holds the records of one plan.
 inline constexpr const char* math_records_file = "math.jsonl";
 inline constexpr const char* kernel_records_file = "kernels.jsonl";
+inline constexpr const char* scene_records_file = "scenes.jsonl";
 
 struct RecordSet {
   Json context;

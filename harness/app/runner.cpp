@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <csignal>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -11,36 +10,13 @@
 
 #include "harness/app/crash_report.hpp"
 #include "harness/app/failure.hpp"
+#include "harness/app/interrupt.hpp"
 #include "harness/app/progress.hpp"
 #include "harness/core/reference_disagreement.hpp"
 
 namespace ulpgate::app {
 
 namespace {
-
-std::atomic<bool> interrupted{false};
-
-void on_interrupt(int) {
-  interrupted.store(true, std::memory_order_relaxed);
-}
-
-// Ctrl-C and SIGTERM end the run after the units in hand; what is done is still written.
-class InterruptGuard {
- public:
-  InterruptGuard() : int_(std::signal(SIGINT, on_interrupt)), term_(std::signal(SIGTERM, on_interrupt)) {
-    interrupted = false;
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-  ~InterruptGuard() {
-    std::signal(SIGINT, int_);
-    std::signal(SIGTERM, term_);
-  }
-
- private:
-  void (*int_)(int);
-  void (*term_)(int);
-};
 
 // Merges what the units give; the first failure ends the run.
 class Collector {
@@ -72,7 +48,7 @@ class Collector {
         throw Failure(ExitCode::regression, e.what());
       }
     }
-    result_.complete = !interrupted;
+    result_.complete = !interrupted();
     return std::move(result_);
   }
 
@@ -101,7 +77,7 @@ UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     const MpfrThread mpfr;
-    for (std::size_t i = next++; i < mine.size() && !interrupted && !collector.failed(); i = next++) {
+    for (std::size_t i = next++; i < mine.size() && !interrupted() && !collector.failed(); i = next++) {
       try {
         collector.add(mine[i], job.evaluate(mine[i]));
       } catch (...) {

@@ -16,7 +16,7 @@ namespace ulpgate::dem {
 #define ULPGATE_DEM_FIELDS(FIELD) \
   FIELD(x1, vector) FIELD(x2, vector) FIELD(r1, scalar) FIELD(r2, scalar) FIELD(v1, vector) \
   FIELD(v2, vector) FIELD(w1, vector) FIELD(w2, vector) FIELD(q1, quaternion) FIELD(q2, quaternion) \
-  FIELD(q2_start, quaternion) FIELD(normal, vector) FIELD(normal_old, vector) FIELD(overlap, scalar) \
+  FIELD(q1_start, quaternion) FIELD(q2_start, quaternion) FIELD(normal, vector) FIELD(normal_old, vector) FIELD(overlap, scalar) \
   FIELD(rest_overlap, scalar) FIELD(shear, vector) FIELD(velocity, vector) FIELD(closing_speed, scalar) \
   FIELD(arm1, vector) FIELD(arm2, vector) FIELD(force, vector) FIELD(torque, vector) \
   FIELD(mass1, scalar) FIELD(mass2, scalar) FIELD(inertia1, scalar) FIELD(principal_inertia, vector) \

@@ -1,0 +1,41 @@
+// What a scene run writes: records, series, snapshots, ParaView files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/app/records.hpp"
+#include "harness/core/scene_compare.hpp"
+
+namespace ulpgate::app {
+
+// Rows of series/<scene>_<type>.csv: step, time, kinetic energy, the energy account, mean position of the
+// movable bodies.
+class Series {
+ public:
+  explicit Series(const dem::DemEngine& engine);
+  void add(const dem::DemEngine& engine);
+  [[nodiscard]] const std::string& csv() const { return csv_; }
+  // Largest |sum - sum at the start| of the energy account; 0 where none is kept.
+  [[nodiscard]] double max_energy_error() const { return max_energy_error_; }
+  [[nodiscard]] double energy_start() const { return energy_start_; }
+
+ private:
+  std::string csv_;
+  bool has_account_ = false;
+  bool has_start_ = false;
+  double energy_start_ = 0;
+  double max_energy_error_ = 0;
+};
+
+[[nodiscard]] std::array<double, 3> mean_position(const dem::DemEngine& engine);
+// body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s
+[[nodiscard]] std::string snapshot_csv(const dem::DemEngine& engine);
+// Legacy VTK, ASCII: spheres as points with radius, speed and kinetic energy, facets as triangles.
+[[nodiscard]] std::string vtk_text(const dem::DemEngine& engine, const std::string& title);
+[[nodiscard]] std::string divergence_csv(const std::vector<Divergence>& rows);
+// The energy account as an object, null where none is kept.
+[[nodiscard]] Json energy_json(const dem::DemEngine& engine);
+
+}  // namespace ulpgate::app
