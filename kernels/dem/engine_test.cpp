@@ -192,13 +192,15 @@ TEST(Engine, OtherLawsAndShapesKeepBitsToo) {
     lean->step(5000);
     full->step(10000);
     EXPECT_EQ(trajectory(*lean), trajectory(*full)) << law;
-    EXPECT_FALSE(lean->contacts().empty()) << law;
+    EXPECT_GT(lean->energy("friction"), 0) << law << ": bodies met";
     auto resumed = engine(*read.scene);
     resumed->restore(state, Constants::from_text);
     resumed->step(5000);
     EXPECT_EQ(trajectory(*resumed), trajectory(*lean)) << law;
     if (law != "viscoelastic") {
-      EXPECT_NEAR(lean->energy("sum"), start, 2e-2 * lean->energy("friction")) << law;
+      // The shear springs' account is good to overlap/radius: their velocity is free of ratcheting, not the
+      // true one.
+      EXPECT_NEAR(lean->energy("sum"), start, 3e-3 * start) << law;
     }
   }
 }
