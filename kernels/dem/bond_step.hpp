@@ -11,7 +11,7 @@ namespace ulpgate::dem {
 namespace detail {
 
 // `Axes` is 2 where everything lies in the plane z = 0.
-template <int Axes, bool Damped, bool Gravity, RealType Real>
+template <int Axes, bool Damped, bool Gravity, bool Energy, RealType Real>
 class BondsAlone {
  public:
   explicit BondsAlone(SimulationState<Real>& s) : s_(s) {
@@ -19,67 +19,80 @@ class BondsAlone {
       sums_.push_back(s.bodies.radius[static_cast<std::size_t>(bond.first)] +
                       s.bodies.radius[static_cast<std::size_t>(bond.second)]);
     }
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+      // A fixed body at rest stays where it is.
+      if (s.bodies.fixed[i] == 0) {
+        movable_.push_back(i);
+      } else if (!(s.bodies.velocity[i] == Vec3<Real>{})) {
+        driven_.push_back(i);
+      }
+    }
   }
 
-  void step() {
+  // Parameters are copied into locals: as numbers of the state they could change with every number written.
+  void run(std::uint64_t count) {
+    const Real dt = s_.dt;
+    const Real lambda = s_.damping;
+    const Vec3<Real> gravity = s_.gravity;
+    const Real zero{0};
     Bodies<Real>& b = s_.bodies;
+    Vec3<Real>* const position = b.position.data();
+    Vec3<Real>* const velocity = b.velocity.data();
+    Vec3<Real>* const force = b.force.data();
+    const Real* const mass = b.mass.data();
     const std::size_t bonds = s_.bonds.size();
-    if (s_.parts.energy) s_.energies.elastic = Real(0);
-    for (std::size_t k = 0; k < bonds; ++k) stretch(k);
-    if (s_.parts.energy) account_bodies();
-    const std::size_t count = b.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (b.fixed[i] != 0) {
-        drift(b.position[i], b.velocity[i], s_.dt);
-      } else {
-        axis(b.position[i].x, b.velocity[i].x, b.force[i].x, s_.gravity.x, b.mass[i]);
-        axis(b.position[i].y, b.velocity[i].y, b.force[i].y, s_.gravity.y, b.mass[i]);
-        if constexpr (Axes == 3)
-          axis(b.position[i].z, b.velocity[i].z, b.force[i].z, s_.gravity.z, b.mass[i]);
+    const auto axis = [&](Real& x, Real& v, const Real& f, const Real& g, const Real& m) {
+      Real a = f / m;
+      if constexpr (Gravity) a += g;
+      if constexpr (Damped) a = damped(a, v, dt, lambda);
+      v += dt * a;
+      x += dt * v;
+    };
+    for (std::uint64_t n = 0; n < count; ++n) {
+      for (std::size_t i = 0; i < b.size(); ++i) {
+        force[i].x = zero;
+        force[i].y = zero;
+        if constexpr (Axes == 3) force[i].z = zero;
       }
-      b.force[i].x = Real(0);
-      b.force[i].y = Real(0);
-      if constexpr (Axes == 3) b.force[i].z = Real(0);
+      if constexpr (Energy) s_.energies.elastic = zero;
+      for (std::size_t k = 0; k < bonds; ++k) stretch(k, position, force);
+      if constexpr (Energy) account_bodies();
+      for (const std::size_t i : movable_) {
+        axis(position[i].x, velocity[i].x, force[i].x, gravity.x, mass[i]);
+        axis(position[i].y, velocity[i].y, force[i].y, gravity.y, mass[i]);
+        if constexpr (Axes == 3) axis(position[i].z, velocity[i].z, force[i].z, gravity.z, mass[i]);
+      }
+      for (const std::size_t i : driven_) drift(position[i], velocity[i], dt);
+      ++s_.iteration;
     }
-    ++s_.iteration;
+    std::fill(b.force.begin(), b.force.end(), Vec3<Real>{});
   }
 
  private:
-  void axis(Real& x, Real& v, const Real& force, const Real& gravity, const Real& mass) const {
-    Real a = force / mass;
-    if constexpr (Gravity) a += gravity;
-    if constexpr (Damped) a = damped(a, v, s_.dt, s_.damping);
-    v += s_.dt * a;
-    x += s_.dt * v;
-  }
-
-  void stretch(std::size_t k) {
+  void stretch(std::size_t k, const Vec3<Real>* position, Vec3<Real>* force) {
     using std::sqrt;
-    Bodies<Real>& b = s_.bodies;
     BondState<Real>& bond = s_.bonds[k];
     if (bond.broken != 0) return loose(k);
     const auto i = static_cast<std::size_t>(bond.first);
     const auto j = static_cast<std::size_t>(bond.second);
-    const Vec3<Real>& p = b.position[i];
-    const Vec3<Real>& q = b.position[j];
-    const Real dx = q.x - p.x;
-    const Real dy = q.y - p.y;
+    const Real dx = position[j].x - position[i].x;
+    const Real dy = position[j].y - position[i].y;
     Real length2 = dx * dx + dy * dy;
     if constexpr (Axes == 3) {
-      const Real dz = q.z - p.z;
+      const Real dz = position[j].z - position[i].z;
       length2 += dz * dz;
       const Real length = sqrt(length2);
       const Real fn = pull(k, length);
       if (bond.broken != 0) return loose(k);
-      push(b.force[i].z, b.force[j].z, fn, Real(dz / length));
-      push(b.force[i].x, b.force[j].x, fn, Real(dx / length));
-      push(b.force[i].y, b.force[j].y, fn, Real(dy / length));
+      push(force[i].z, force[j].z, fn, Real(dz / length));
+      push(force[i].x, force[j].x, fn, Real(dx / length));
+      push(force[i].y, force[j].y, fn, Real(dy / length));
     } else {
       const Real length = sqrt(length2);
       const Real fn = pull(k, length);
       if (bond.broken != 0) return loose(k);
-      push(b.force[i].x, b.force[j].x, fn, Real(dx / length));
-      push(b.force[i].y, b.force[j].y, fn, Real(dy / length));
+      push(force[i].x, force[j].x, fn, Real(dx / length));
+      push(force[i].y, force[j].y, fn, Real(dy / length));
     }
   }
 
@@ -92,13 +105,12 @@ class BondsAlone {
   // The normal force; marks the bond broken where it pulls too hard.
   Real pull(std::size_t k, const Real& length) {
     BondState<Real>& bond = s_.bonds[k];
-    const Real overlap = sums_[k] - length;
-    Real fn = s_.contacts.kn[k] * (overlap - bond.rest_overlap);
+    Real fn = s_.contacts.kn[k] * ((sums_[k] - length) - bond.rest_overlap);
     if (bond.breakable != 0 && -fn > bond.strength.tension) {
       bond.broken = 1;
       s_.contacts.touching[k] = 0;
-      if (s_.parts.energy) s_.energies.broken += s_.contacts.elastic[k];
-    } else if (s_.parts.energy) {
+      if constexpr (Energy) s_.energies.broken += s_.contacts.elastic[k];
+    } else if constexpr (Energy) {
       s_.contacts.elastic[k] = elastic_energy<Real>(s_.contacts.kn[k], Real(0), fn, {});
       s_.energies.elastic += s_.contacts.elastic[k];
     }
@@ -120,7 +132,7 @@ class BondsAlone {
     const Vec3<Real> f = fn * (d / length);
     b.force[i] -= f;
     b.force[j] += f;
-    if (s_.parts.energy) s_.energies.elastic += elastic_energy<Real>(s_.contacts.kn[k], Real(0), fn, {});
+    if constexpr (Energy) s_.energies.elastic += elastic_energy<Real>(s_.contacts.kn[k], Real(0), fn, {});
   }
 
   void account_bodies() {
@@ -130,38 +142,25 @@ class BondsAlone {
 
   SimulationState<Real>& s_;
   std::vector<Real> sums_;
+  std::vector<std::size_t> movable_, driven_;
 };
-
-template <int Axes, bool Damped, bool Gravity, RealType Real>
-void run_bonds_alone_as(SimulationState<Real>& s, std::uint64_t count) {
-  BondsAlone<Axes, Damped, Gravity, Real> run(s);
-  for (std::uint64_t i = 0; i < count; ++i) run.step();
-}
 
 }  // namespace detail
 
 // Takes `count` steps of a simulation whose parts say bonds_alone().
 template <RealType Real>
 void run_bonds_alone(SimulationState<Real>& s, std::uint64_t count) {
-  const auto pick_gravity = [&]<int Axes, bool Damped>() {
-    if (s.parts.gravity) {
-      detail::run_bonds_alone_as<Axes, Damped, true>(s, count);
-    } else {
-      detail::run_bonds_alone_as<Axes, Damped, false>(s, count);
-    }
-  };
-  const auto pick_damping = [&]<int Axes>() {
-    if (s.parts.damping) {
-      pick_gravity.template operator()<Axes, true>();
-    } else {
-      pick_gravity.template operator()<Axes, false>();
-    }
-  };
-  if (s.parts.third_axis) {
-    pick_damping.template operator()<3>();
-  } else {
-    pick_damping.template operator()<2>();
-  }
+  const auto pick = [](bool on, auto&& next) { on ? next(std::true_type{}) : next(std::false_type{}); };
+  pick(s.parts.third_axis, [&](auto third) {
+    pick(s.parts.damping, [&](auto damping) {
+      pick(s.parts.gravity, [&](auto gravity) {
+        pick(s.parts.energy, [&](auto energy) {
+          constexpr int axes = third ? 3 : 2;
+          detail::BondsAlone<axes, damping, gravity, energy, Real>(s).run(count);
+        });
+      });
+    });
+  });
 }
 
 }  // namespace ulpgate::dem

@@ -140,6 +140,88 @@ TEST(Engine, WidenedStateIsExact) {
   EXPECT_LT(difference, 1e-15);
 }
 
+// Laws, shapes and bodies that no scene file has together.
+const char* const everything = R"(name = "everything"
+[[material]]
+name = "m"
+density = 2500
+young = 1e7
+poisson = 0.3
+friction_angle = 20
+[[generator]]
+kind = "grid"
+radius = 0.01
+radius_spread = 0.2
+counts = [3, 3, 3]
+spacing = [0.023, 0.023, 0.023]
+corner = [-0.02, 0.02, -0.02]
+jitter = 0.001
+[[sphere]]
+position = [0.001, 0.1, 0.002]
+radius = 0.012
+inertia = [1e-6, 2e-6, 3e-6]
+angular_velocity = [1, 20, 3]
+[[box]]
+centre = [0, -0.02, 0]
+half_size = [0.03, 0.02, 0.03]
+axis = [0, 0, 1]
+angle = 10
+[[facet]]
+vertices = [[-1, -0.05, -1], [1, -0.05, -1], [0, -0.05, 1]]
+[contacts]
+law = "LAW"
+[run]
+dt = 1e-5
+until = 1
+gravity = [0, -9.81, 0]
+record = ["energy"]
+)";
+
+TEST(Engine, OtherLawsAndShapesKeepBitsToo) {
+  for (const std::string law : {"hertz_mindlin", "frictional", "viscoelastic"}) {
+    std::string text = everything;
+    text.replace(text.find("LAW"), 3, law);
+    const auto read = scenes::read_scene(text, "everything");
+    ASSERT_TRUE(read.scene) << read.errors.front().text();
+    auto lean = engine(*read.scene);
+    auto full = engine(*read.scene, {true, 2});
+    lean->step(1);
+    const double start = lean->energy("sum");
+    lean->step(4999);
+    const std::string state = lean->save();
+    lean->step(5000);
+    full->step(10000);
+    EXPECT_EQ(trajectory(*lean), trajectory(*full)) << law;
+    EXPECT_GT(lean->energy("friction"), 0) << law << ": bodies met";
+    auto resumed = engine(*read.scene);
+    resumed->restore(state, Constants::from_text);
+    resumed->step(5000);
+    EXPECT_EQ(trajectory(*resumed), trajectory(*lean)) << law;
+    if (law != "viscoelastic") {
+      // The shear springs' account is good to overlap/radius: their velocity is free of ratcheting, not the
+      // true one.
+      EXPECT_NEAR(lean->energy("sum"), start, 3e-3 * start) << law;
+    }
+  }
+}
+
+TEST(Engine, BrokenRodsStayBrokenThroughARestart) {
+  Scene scene = load("pendulum3");
+  ASSERT_FALSE(apply_override(scene, "material.rod.cohesion=1"));
+  scene.record = {"energy"};
+  auto lean = engine(scene);
+  auto full = engine(scene, {true, 1});
+  lean->step(100000);
+  full->step(100000);
+  EXPECT_GT(lean->energy("broken"), 0);
+  EXPECT_EQ(trajectory(*lean), trajectory(*full));
+  auto resumed = engine(scene);
+  resumed->restore(lean->save(), Constants::from_text);
+  lean->step(1000);
+  resumed->step(1000);
+  EXPECT_EQ(trajectory(*resumed), trajectory(*lean));
+}
+
 TEST(Engine, BadStatesAreRefused) {
   const Scene scene = load("collision");
   auto e = engine(scene);

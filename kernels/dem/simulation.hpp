@@ -115,12 +115,12 @@ class Simulation {
     const auto bodies = static_cast<std::int64_t>(b.size());
 #pragma omp parallel num_threads(threads_)
     {
-#pragma omp for schedule(static)
+#pragma omp for schedule(dynamic, 1024)
       for (std::int64_t k = 0; k < count; ++k) {
         const auto p = static_cast<std::size_t>(k);
         active_[p] = pass.evaluate(p, slots_[p]) ? 1 : 0;
       }
-#pragma omp for schedule(static)
+#pragma omp for schedule(dynamic, 512)
       for (std::int64_t k = 0; k < bodies; ++k) {
         const auto i = static_cast<std::size_t>(k);
         for (const std::int32_t entry : collider_.pairs_of(i)) {

@@ -67,8 +67,8 @@ void resize_contacts(SimulationState<Real>& s, std::size_t count) {
   }
 }
 
-// One list of every field of the state, for saving and for restoring.  Only touching contacts are state: the
-// other candidates follow from the positions.
+// One list of every field of the state, for saving and for restoring.  Only touching contacts and bonds are
+// state: the other candidates follow from the positions.
 template <RealType Real, class Archive>
 void visit_state(Archive& a, SimulationState<Real>& s) {
   a.field("iteration", s.iteration);
@@ -119,7 +119,7 @@ void visit_state(Archive& a, SimulationState<Real>& s) {
   Contacts<Real>& c = s.contacts;
   std::vector<std::size_t> kept;
   for (std::size_t p = 0; p < c.size(); ++p) {
-    if (c.touching[p] != 0) kept.push_back(p);
+    if (c.touching[p] != 0 || (!c.bond.empty() && c.bond[p] >= 0)) kept.push_back(p);
   }
   std::size_t count = kept.size();
   a.field("contacts", count);
@@ -128,12 +128,12 @@ void visit_state(Archive& a, SimulationState<Real>& s) {
     kept.resize(count);
     for (std::size_t p = 0; p < count; ++p) {
       kept[p] = p;
-      c.touching[p] = 1;
     }
   }
   for (const std::size_t p : kept) {
     a.field("pair", c.pair[p].first);
     a.field("with", c.pair[p].second);
+    a.field("touching", c.touching[p]);
     if (!c.bond.empty()) a.field("bond", c.bond[p]);
     a.constant("kn", c.kn[p]);
     if (s.parts.shear) {

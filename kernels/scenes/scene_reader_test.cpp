@@ -5,6 +5,7 @@
 
 #include "kernels/dem/testing/scenes.hpp"
 #include "kernels/scenes/expression.hpp"
+#include "kernels/scenes/scene_steps.hpp"
 
 namespace ulpgate::scenes {
 namespace {
@@ -139,6 +140,15 @@ TEST(Expression, NoDoubleOnTheWay) {
   const Evaluator<Wide> e;
   EXPECT_EQ(e("0.1/3"), Wide("0.1") / 3);
   EXPECT_EQ(e("4*pi/3"), 4 * boost::math::constants::pi<Wide>() / 3);
+}
+
+TEST(Scenes, TimesAreWholeSteps) {
+  EXPECT_EQ(steps_until_end(dem::testing::load("deposition")), 7001U);
+  Scene pendulum = dem::testing::load("pendulum3");
+  EXPECT_EQ(steps_until_end(pendulum), 1600000U);
+  EXPECT_EQ(steps_between_records(pendulum), 10U);
+  EXPECT_FALSE(apply_override(pendulum, "dt=1e-6"));
+  EXPECT_EQ(steps_between_records(pendulum), 100U);
 }
 
 TEST(Scenes, AllAreValid) {
