@@ -51,9 +51,14 @@ template <class T>
 concept Float128Backed = false;
 #endif
 
+// A type that watches what is done with it: kernels are instantiated with it, results are not measured in it.
+template <class T>
+inline constexpr bool is_instrumented_real = false;
+
 // Every type that the harness can measure.
 template <class T>
-concept RealType = NativeReal<T> || MpfrBacked<T> || CppBinFloatBacked<T> || Float128Backed<T>;
+concept RealType =
+    NativeReal<T> || MpfrBacked<T> || CppBinFloatBacked<T> || Float128Backed<T> || is_instrumented_real<T>;
 
 namespace detail {
 

@@ -9,6 +9,7 @@
 #include "harness/app/crash_report.hpp"
 #include "harness/app/files.hpp"
 #include "harness/app/runner.hpp"
+#include "harness/core/kernel_audit.hpp"
 
 namespace ulpgate::app {
 
@@ -24,6 +25,7 @@ struct KernelOptions {
   std::string shard = "0/1";
   std::string out;
   bool overwrite = false;
+  bool audit = false;
   bool json = false;
 };
 
@@ -66,7 +68,19 @@ void print_unstable(const std::vector<RowRecord>& records) {
              unstable, records.size(), stability_limit);
 }
 
+ExitCode run_audit() {
+  constexpr std::uint64_t states = 16;
+  const auto found = audit_kernels(audited_kernel_table(), states);
+  for (const auto& hidden : found)
+    fmt::print("{}: the double {} becomes a number of the kernel's type: good to 16 digits only\n",
+               hidden.kernel, hidden.literal);
+  fmt::print("{} kernels, {} hidden doubles\n", dem::all_kernels().size(), found.size());
+  return found.empty() ? ExitCode::pass : ExitCode::regression;
+}
+
 ExitCode run_kernels(const KernelOptions& o) {
+  if (o.audit) return run_audit();
+  if (o.out.empty()) throw Failure(ExitCode::bad_input, "--out DIR is required");
   const Shard shard = parse_shard(o.shard);
   KernelPlanRequest request;
   request.kernels = select_kernels(o.kernels);
@@ -113,7 +127,8 @@ void add_kernels_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(0U, 4096U));
   kernels->add_option("--shard", o->shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")
       ->capture_default_str();
-  kernels->add_option("--out", o->out, "directory of the records")->required();
+  kernels->add_option("--out", o->out, "directory of the records");
+  kernels->add_flag("--audit", o->audit, "name kernels that hold a double literal instead of measuring");
   kernels->add_flag("--overwrite", o->overwrite, "write over the records of another plan");
   kernels->add_flag("--json", o->json, "print the records as well");
   kernels->callback([=, &action] { action = [=] { return run_kernels(*o); }; });
