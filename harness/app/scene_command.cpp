@@ -1,10 +1,16 @@
 // ulpgate scene: runs a DEM scene, explains what it leaves out, compares it with RealHP<4>, measures its
 // speed.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <numeric>
 
 #include "harness/app/commands.hpp"
@@ -16,6 +22,8 @@
 #include "harness/app/scene_output.hpp"
 #include "harness/app/selection.hpp"
 #include "harness/core/random_words.hpp"
+#include "kernels/scenes/expression.hpp"
+#include "kernels/scenes/scene_steps.hpp"
 
 namespace ulpgate::app {
 
@@ -47,14 +55,9 @@ struct Job {
   std::uint64_t steps = 0;
   std::uint64_t record_every = 0;  // steps; 0: at the end only
   std::vector<std::uint64_t> snapshot_steps;
-  double dt_s = 0;
   std::string plan_text;
   std::string plan;
 };
-
-std::uint64_t steps_in(double time_s, double dt_s) {
-  return static_cast<std::uint64_t>(std::llround(time_s / dt_s));
-}
 
 Job make_job(const SceneOptions& o) {
   Job job;
@@ -69,20 +72,15 @@ Job make_job(const SceneOptions& o) {
     scene.record.emplace_back("energy");
     job.loaded.text += "\n# record energy";
   }
-  job.dt_s = approximate_value(scene, scene.dt);
-  job.steps = o.steps != 0 ? o.steps : steps_in(approximate_value(scene, scene.until), job.dt_s);
+  job.steps = o.steps != 0 ? o.steps : scenes::steps_until_end(scene);
   if (job.steps == 0) throw Failure(ExitCode::bad_input, fmt::format("{}: no step to take", o.name));
-  if (!scene.record_every.empty())
-    job.record_every =
-        std::max<std::uint64_t>(1, steps_in(approximate_value(scene, scene.record_every), job.dt_s));
+  job.record_every = scenes::steps_between_records(scene);
   for (const auto& time : split(o.snapshots, ',')) {
-    double t = 0;
     try {
-      t = approximate_value(scene, time);
-    } catch (const std::exception& e) {
+      job.snapshot_steps.push_back(scenes::steps_for(scene, time));
+    } catch (const scenes::ExpressionError& e) {
       throw Failure(ExitCode::bad_input, fmt::format("--snapshots: {}", e.what()));
     }
-    job.snapshot_steps.push_back(steps_in(t, job.dt_s));
   }
   job.plan_text = fmt::format("ulpgate scene plan\nsteps {}\nscene {:016x}\n{}\n", job.steps,
                               fnv1a(job.loaded.text), job.loaded.text);
@@ -231,7 +229,7 @@ Written run_one(const std::string& token, const Job& job, const SceneOptions& o,
   j["energy"] = energy_json(*engine);
   j["energy_start"] = series.energy_start();
   j["max_energy_error"] = series.max_energy_error();
-  j["state_hash"] = fmt::format("{:016x}", fnv1a(engine->save()));
+  j["state_hash"] = fmt::format("{:016x}", state_hash(*engine));
   j["memory_bytes"] = engine->memory_bytes();
   j["plan"] = job.plan;
   if (!o.json) {
@@ -313,7 +311,23 @@ ExitCode run_bench(const Job& job, const SceneOptions& o, const std::vector<std:
   return ExitCode::pass;
 }
 
+// Threads that wait for each other's parts of a step must sleep where other programs share the cores:
+// spinning costs ten times the step.  libgomp reads its policy before main, so the program starts itself
+// again with it.
+void let_waiting_threads_sleep(int threads) {
+  if (threads < 2 || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+  ::setenv("OMP_WAIT_POLICY", "passive", 1);
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::string words((std::istreambuf_iterator<char>(in)), {});
+  std::vector<char*> argv;
+  for (std::size_t at = 0; at < words.size(); at += std::strlen(&words[at]) + 1) argv.push_back(&words[at]);
+  argv.push_back(nullptr);
+  // Where that fails the run is slower and no less right.
+  ::execv("/proc/self/exe", argv.data());
+}
+
 ExitCode run_scene(const SceneOptions& o) {
+  let_waiting_threads_sleep(o.threads);
   const Job job = make_job(o);
   const auto types = select_types(o.types);
   const std::filesystem::path out = o.out;

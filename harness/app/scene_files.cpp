@@ -8,7 +8,6 @@
 #include "harness/app/failure.hpp"
 #include "harness/app/files.hpp"
 #include "harness/app/selection.hpp"
-#include "kernels/scenes/expression.hpp"
 #include "kernels/scenes/scene_reader.hpp"
 
 namespace ulpgate::app {
@@ -48,12 +47,6 @@ LoadedScene load_scene(const std::string& name, const std::vector<std::string>& 
     loaded.text += "\n# " + text;
   }
   return loaded;
-}
-
-double approximate_value(const scenes::Scene& scene, const std::string& expression) {
-  scenes::Evaluator<double> evaluate;
-  for (const auto& [name, text] : scene.constants) evaluate.define(name, evaluate(text));
-  return evaluate(expression);
 }
 
 }  // namespace ulpgate::app

@@ -22,7 +22,4 @@ struct LoadedScene {
 // `name` is a scene built in, or the path of a TOML file.  Overrides are "key=value".
 [[nodiscard]] LoadedScene load_scene(const std::string& name, const std::vector<std::string>& overrides);
 
-// The number that an expression of the scene stands for, in double: for step counts and plots only.
-[[nodiscard]] double approximate_value(const scenes::Scene& scene, const std::string& expression);
-
 }  // namespace ulpgate::app

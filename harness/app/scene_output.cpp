@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/core/random_words.hpp"
+
 namespace ulpgate::app {
 
 namespace {
@@ -51,6 +53,16 @@ std::array<double, 3> mean_position(const dem::DemEngine& engine) {
   }
   for (double& x : sum) x = count > 0 ? x / count : 0;
   return sum;
+}
+
+std::uint64_t state_hash(const dem::DemEngine& engine) {
+  std::uint64_t hash = fnv1a("state");
+  for (const auto q : {Quantity::position, Quantity::velocity, Quantity::angular_velocity}) {
+    for (std::size_t body = 0; body < engine.bodies(); ++body) {
+      for (std::size_t c = 0; c < 3; ++c) hash = fnv1a(engine.text(q, body, c) + " ", hash);
+    }
+  }
+  return hash;
 }
 
 Series::Series(const dem::DemEngine& engine) : csv_("step,time_s,kinetic_J") {

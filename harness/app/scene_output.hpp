@@ -30,6 +30,8 @@ class Series {
 };
 
 [[nodiscard]] std::array<double, 3> mean_position(const dem::DemEngine& engine);
+// Of every bit of positions, velocities and angular velocities.
+[[nodiscard]] std::uint64_t state_hash(const dem::DemEngine& engine);
 // body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s
 [[nodiscard]] std::string snapshot_csv(const dem::DemEngine& engine);
 // Legacy VTK, ASCII: spheres as points with radius, speed and kinetic energy, facets as triangles.
