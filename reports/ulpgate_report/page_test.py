@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ulpgate_report import cli, records, sample_records
+from ulpgate_report import cli, reading, sample_records
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 SCRIPT_NAME = '<script>alert("x")</script>'
@@ -90,7 +90,7 @@ def test_files_and_summary(report):
             assert (out / "figures" / f"{name}.{suffix}").stat().st_size > 0
     assert not list(out.rglob("*.part"))
     summary = json.loads((out / "summary.json").read_text("utf-8"))
-    records.validator("summary").validate(summary)
+    reading.validator("summary").validate(summary)
     assert len(summary["cells"]) == 4 * 7
     lines = [
         json.loads(line) for line in (report[0] / "math.jsonl").open(encoding="utf-8")
@@ -129,4 +129,4 @@ def test_scripts_parse(name):
 
 @pytest.mark.parametrize("name", ["context", "math", "timing", "summary"])
 def test_schemas_are_schemas(name):
-    assert records.validator(name).schema["title"]
+    assert reading.validator(name).schema["title"]

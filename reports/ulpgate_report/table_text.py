@@ -8,9 +8,11 @@ NARROWEST_CAPTION = 72
 
 
 def _text(cell, kind):
-    _, mismatches = cell_text.value_and_mark(cell)
-    shown = cell_text.short(cell, kind, ARGUMENT_DIGITS)
-    return f"{shown} !{mismatches}" if mismatches else shown
+    _, mark = cell_text.value_and_mark(cell)
+    # A command is there to be copied.
+    digits = None if kind == "command" else ARGUMENT_DIGITS
+    shown = cell_text.short(cell, kind, digits)
+    return f"{shown} {mark}" if mark else shown
 
 
 def render(table):

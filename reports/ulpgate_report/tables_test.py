@@ -7,8 +7,8 @@ import subprocess
 import pytest
 
 from ulpgate_report import (
-    build,
     combine,
+    kind_math,
     records,
     sample_records,
     table_csv,
@@ -143,10 +143,10 @@ def test_names_are_escaped(text, latex, markdown, why):
 def test_latex_compiles_and_breaks_over_pages(tmp_path):
     run = combined_run(None, hard_values)
     names = []
-    for make, formats in build.TABLES:
+    for make, formats in kind_math.TABLES:
         if "tex" in formats:
             table = make(run)
-            names.append(table.name)
+            names.append(table)
             (tmp_path / f"{table.name}.tex").write_text(table_latex.render(table))
     (tmp_path / "tables.tex").write_text(table_latex.document(names))
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "tables.tex"]
