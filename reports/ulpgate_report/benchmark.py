@@ -34,9 +34,8 @@ def _bar(timing, reference):
     deviation = math.nan
     if slowdown is None and reference is not None:
         slowdown = reference["iterations_per_s"] / speed
-    if timing["type"] == "double" and slowdown is not None:
-        deviation = 0.0
-    elif slowdown is not None and reference is not None:
+    # Double against itself has none.
+    if None not in (slowdown, reference) and reference is not timing:
         shares = [t["deviation"] / t["iterations_per_s"] for t in (timing, reference)]
         deviation = slowdown * math.hypot(*shares)
     of_paper = PAPER_SCENE in timing["scene"]

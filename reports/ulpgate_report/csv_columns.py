@@ -1,15 +1,20 @@
 """Reads a CSV file of numbers into columns; a refusal names file and line."""
+import decimal
 import math
 
 from ulpgate_report import reading
 from ulpgate_report.errors import InvalidInput
 
 
-def _number(text, where, name):
-    try:
-        return float(text)
-    except ValueError:
-        raise InvalidInput(f"{where}: {name}: {text[:40]!r} is no number") from None
+def _refuse(fields, names, readers, where):
+    """Name the field that its reader does not take."""
+    for name, field, read_field in zip(names, fields, readers):
+        try:
+            read_field(field)
+        except (ValueError, decimal.InvalidOperation):
+            raise InvalidInput(
+                f"{where}: {name}: {field[:40]!r} is no number"
+            ) from None
 
 
 def _header(line, where, required):
@@ -22,8 +27,8 @@ def _header(line, where, required):
     return names
 
 
-def read(path, required, text_columns=()):
-    """{column: list of float}, in the order of the file; `text_columns` stay text.
+def read(path, required, readers=None, other=float):
+    """{column: list}, in the order of the file; `readers` says how a column is read where not by `other`.
 
     A file that does not end with a line end was cut off, and its last number with it.
     """
@@ -36,7 +41,7 @@ def read(path, required, text_columns=()):
         raise InvalidInput(f"{place}:1: the header is missing")
     names = _header(lines[0], f"{place}:1", required)
     columns = [[] for _ in names]
-    is_text = [name in text_columns for name in names]
+    read_fields = [(readers or {}).get(name, other) for name in names]
     for number, line in enumerate(lines[1:-1], start=2):
         fields = line.split(",")
         if len(fields) != len(names):
@@ -44,11 +49,10 @@ def read(path, required, text_columns=()):
                 f"{place}:{number}: {len(fields)} fields where the header has {len(names)}"
             )
         try:
-            for column, field, plain in zip(columns, fields, is_text):
-                column.append(field if plain else float(field))
-        except ValueError:
-            for name, field, plain in zip(names, fields, is_text):
-                plain or _number(field, f"{place}:{number}", name)
+            for column, field, read_field in zip(columns, fields, read_fields):
+                column.append(read_field(field))
+        except (ValueError, decimal.InvalidOperation):
+            _refuse(fields, names, read_fields, f"{place}:{number}")
     return dict(zip(names, columns))
 
 

@@ -26,7 +26,7 @@ def _place(index, count):
     return (index - (count - 1) / 2) * width, width
 
 
-def _draw_bars(axes, bars, tokens, threads, value_of):
+def _draw_bars(axes, bars, tokens, threads, value_of, beside):
     for bar in bars:
         value, deviation = value_of(bar)
         if value is None:
@@ -47,13 +47,17 @@ def _draw_bars(axes, bars, tokens, threads, value_of):
             capsize=2.5,
             error_kw=_ERROR_BARS,
         )
+        top = value + (deviation if math.isfinite(deviation) else 0)
         axes.annotate(
             f"{value:.3g}",
-            (x, value + (deviation if math.isfinite(deviation) else 0)),
-            xytext=(0, 2),
+            (x, max(top, beside(bar) or 0)),
+            xytext=(0, 5),
             textcoords="offset points",
             ha="center",
+            va="bottom",
             size=6,
+            # Side by side the numbers would run into each other.
+            rotation=90 if len(threads) > 1 else 0,
         )
     axes.set_xticks(range(len(tokens)), tokens, rotation=40, ha="right")
 
@@ -108,10 +112,12 @@ def draw(scenes):
         def slowdown(bar):
             return bar.slowdown, bar.slowdown_deviation
 
-        _draw_bars(left, bars, tokens, threads, speed)
+        _draw_bars(left, bars, tokens, threads, speed, lambda bar: None)
         left.set_yscale("log")
         left.set_ylabel("iterations per second")
-        _draw_bars(right, bars, tokens, threads, slowdown)
+        _draw_bars(
+            right, bars, tokens, threads, slowdown, lambda bar: bar.paper_slowdown
+        )
         right.set_ylabel("slowdown against double")
         if any(bar.slowdown is not None for bar in bars):
             right.axhline(1.0, color="0.4", linewidth=0.7, linestyle=":")

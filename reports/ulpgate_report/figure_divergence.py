@@ -39,7 +39,7 @@ def _draw_panel(axes, lines, tokens, column):
             color=colour,
             marker=marker,
             # Markers at some points: they tell the lines apart where colours do not.
-            markevery=max(1, len(steps) // 6),
+            markevery=(0.02 * tokens.index(token), 0.15),
             markersize=3,
             label=token,
         )
@@ -48,7 +48,7 @@ def _draw_panel(axes, lines, tokens, column):
             axes.axvline(split, color=colour, linestyle=":", linewidth=0.8)
     if drawn:
         axes.set_xscale("log")
-        axes.set_yscale("log")
+        figure_style.log_axis(axes.yaxis)
     return drawn
 
 

@@ -1,7 +1,10 @@
 """The energy account of each scene: its parts against time, and how far their sum is from its start."""
+import decimal
+import math
+
 from matplotlib import pyplot
 
-from ulpgate_report import csv_columns, figure_style, type_order
+from ulpgate_report import figure_style, type_order
 
 FAMILY = "energy"
 _CAPTION = (
@@ -15,6 +18,8 @@ _NOT_ENERGY = ("step", "time_s", "mean_x_m", "mean_y_m", "mean_z_m")
 _DASHES = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
 _SHOWN_TYPE = "double"
 _MOST_POINTS = 4000
+# More digits than any type in use has; sums of the parts are exact.
+_DIGITS = 2000
 
 
 def parts(columns):
@@ -31,13 +36,15 @@ def balance(columns):
     """(times, |sum - sum at the start|), or None where there is no account beside the kinetic energy."""
     account = parts(columns)
     total = columns.get("sum_J", columns.get("sum"))
-    if total is None:
-        if len(account) < 2:
+    # What is infinite or NaN gives NaN, which is not drawn.
+    with decimal.localcontext(decimal.Context(prec=_DIGITS, traps=[])):
+        if total is None:
+            if len(account) < 2:
+                return None
+            total = [sum(values) for values in zip(*account.values())]
+        if not total:
             return None
-        total = [sum(values) for values in zip(*account.values())]
-    if not total:
-        return None
-    return columns["time_s"], [abs(value - total[0]) for value in total]
+        return columns["time_s"], [float(abs(value - total[0])) for value in total]
 
 
 def _thinned(times, values):
@@ -52,10 +59,10 @@ def _thinned(times, values):
     return [times[i] for i in kept], [values[i] for i in kept]
 
 
-def _plot(axes, times, values, least=-float("inf"), **style):
+def _plot(axes, times, values, least=-math.inf, **style):
     """Draw what is finite and above `least`; whether there was anything."""
-    kept_times, kept = csv_columns.finite_pairs([time + 0.0 for time in times], values)
-    pairs = [(t, v) for t, v in zip(kept_times, kept) if v > least]
+    floats = map(float, values)
+    pairs = [(t, v) for t, v in zip(times, floats) if math.isfinite(v) and v > least]
     if pairs:
         axes.plot(*_thinned([t for t, _ in pairs], [v for _, v in pairs]), **style)
     return bool(pairs)
@@ -64,10 +71,12 @@ def _plot(axes, times, values, least=-float("inf"), **style):
 def _legend(axes, columns):
     axes.legend(
         loc="lower left",
-        bbox_to_anchor=(0, 1.0),
+        bbox_to_anchor=(-0.1, 1.0),
         ncol=columns,
-        columnspacing=1.0,
-        handlelength=2.4,
+        fontsize=6.5,
+        columnspacing=0.8,
+        handlelength=2.2,
+        handletextpad=0.4,
     )
 
 
@@ -95,10 +104,10 @@ def _draw_types(axes, lines, tokens, label, log):
     for token, (times, values) in lines:
         colour, marker = type_order.line_style(token, tokens)
         style = {"color": colour, "marker": marker, "markersize": 3, "label": token}
-        style["markevery"] = 0.15
-        drawn += _plot(axes, times, values, 0.0 if log else -float("inf"), **style)
+        style["markevery"] = (tokens.index(token) * 0.02, 0.15)
+        drawn += _plot(axes, times, values, 0.0 if log else -math.inf, **style)
     if log and drawn:
-        axes.set_yscale("log")
+        figure_style.log_axis(axes.yaxis)
     axes.set_xlabel("time (s)")
     axes.set_ylabel(label)
     if drawn:

@@ -35,6 +35,7 @@ def _cell_view(cell, kind):
         "numeric": kind in cell_text.NUMERIC_KINDS,
         "code": kind in cell_text.CODE_KINDS,
         "boxed": kind == "command",
+        "prose": kind == "prose",
         "style": None,
     }
 

@@ -1,4 +1,5 @@
 """Loads what a run of scenes left: its records, times, series and the snapshots that are drawn."""
+import decimal
 from dataclasses import dataclass
 
 from ulpgate_report import csv_columns, reading, scene_files, type_order
@@ -8,6 +9,9 @@ from ulpgate_report.errors import InvalidInput
 MOST_SNAPSHOTS = 4
 _SERIES = ("step", "time_s", "kinetic_J")
 _DIVERGENCE = ("step", "time_s", "max_position_error_m", "max_position_ulp")
+# The energies stay exact: of a long type their sum is constant far below a double's last digit.
+_INSTANT = {"step": float, "time_s": float}
+_WORDS = {"body": str, "shape": str}
 _SNAPSHOT = ("shape", "x_m", "y_m", "z_m", "radius_m", "kinetic_J", "time_s")
 
 
@@ -89,13 +93,16 @@ def load(directory, timings):
     return Scenes(
         records=tuple(records),
         timings=tuple(timings),
-        series={k: csv_columns.read(p, _SERIES) for k, p in series.items()},
+        series={
+            k: csv_columns.read(p, _SERIES, _INSTANT, decimal.Decimal)
+            for k, p in series.items()
+        },
         divergences={
             k: csv_columns.read(p, _DIVERGENCE) for k, p in divergences.items()
         },
         snapshots={
             key: [
-                (step, csv_columns.read(path, _SNAPSHOT, ("body", "shape")))
+                (step, csv_columns.read(path, _SNAPSHOT, _WORDS))
                 for step, path in chosen(found)
             ]
             for key, found in snapshots.items()

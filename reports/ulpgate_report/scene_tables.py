@@ -81,7 +81,7 @@ def scene_states(scenes):
         Column("memory_bytes", "memory (bytes)", "count"),
         Column("state_hash", "state hash", "code"),
         Column("plan", "plan", "code"),
-        Column("left_out", "left out, and why", "text"),
+        Column("left_out", "left out, and why", "prose"),
     )
     caption = "Hash of the last state, to compare bit for bit, and the parts of a step that the scene did not need."
     return Table("scene_states", caption, columns, tuple(rows))

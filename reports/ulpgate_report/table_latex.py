@@ -17,6 +17,7 @@ _SPECIAL = {
 _DOCUMENT = r"""\documentclass[a4paper]{article}
 \usepackage[utf8]{inputenc}
 \usepackage[margin=15mm%s]{geometry}
+\usepackage{array}
 \usepackage{booktabs}
 \usepackage{longtable}
 \usepackage{siunitx}
@@ -50,6 +51,12 @@ def _text(cell, kind):
     return shown + rf"\textsuperscript{{{escape(mark)}}}" if mark else shown
 
 
+def _shape(kind):
+    if kind == "prose":
+        return r">{\raggedright\arraybackslash}p{70mm}"
+    return "r" if kind in cell_text.NUMERIC_KINDS else "l"
+
+
 def _caption(table):
     text = table.caption
     cut = any(
@@ -65,17 +72,13 @@ def _caption(table):
 def render(table):
     """The longtable; it repeats its head on every page."""
     kinds = [column.kind for column in table.columns]
-    shape = "".join("r" if kind in cell_text.NUMERIC_KINDS else "l" for kind in kinds)
+    shape = "".join(map(_shape, kinds))
     titles = []
     for column in table.columns:
         title = escape(column.title)
         # Types are told by their token, in the columns' heads as in the command line.
-        code = column.name == column.title and column.kind in (
-            "ulp",
-            "distance",
-            "real",
-        )
-        titles.append(rf"\texttt{{{title}}}" if code else title)
+        is_type = column.kind in ("ulp", "distance") and column.name == column.title
+        titles.append(rf"\texttt{{{title}}}" if is_type else title)
     head = [r"\toprule", " & ".join(titles) + r" \\", r"\midrule"]
     lines = [
         r"{\scriptsize\setlength{\tabcolsep}{3pt}",

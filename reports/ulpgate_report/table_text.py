@@ -5,6 +5,7 @@ from ulpgate_report import cell_text
 
 ARGUMENT_DIGITS = 10
 NARROWEST_CAPTION = 72
+WIDEST_PROSE = 60
 
 
 def _text(cell, kind):
@@ -12,6 +13,8 @@ def _text(cell, kind):
     # A command is there to be copied.
     digits = None if kind == "command" else ARGUMENT_DIGITS
     shown = cell_text.short(cell, kind, digits)
+    if kind == "prose":
+        shown = textwrap.shorten(shown, WIDEST_PROSE, placeholder=" ...")
     return f"{shown} {mark}" if mark else shown
 
 

@@ -7,7 +7,7 @@ from ulpgate_report.combine import PAPER_STRATA, Row
 
 @dataclass(frozen=True)
 class Column:
-    """A column; `kind` is one of text, code, count, ulp, distance, real, arguments, command."""
+    """A column; `kind` is one of text, code, count, ulp, distance, real, arguments, command, prose."""
 
     name: str
     title: str
