@@ -80,7 +80,10 @@ def _write_figures(parts, out):
 
 
 def write_report(context, parts, out):
-    """Write all tables, figures, the page and the summary to the folder `out`."""
+    """Write all tables, figures, the page and the summary to the folder `out`.
+
+    Returns a sentence for each thing that is left out for lack of a file.
+    """
     _write_tables(parts, out)
     data = dict(parts)
     output.write_text(
@@ -96,3 +99,4 @@ def write_report(context, parts, out):
     output.write_text(
         out / "index.html", page.render(context, headlines, sections, curves)
     )
+    return kind_scenes.notes(data[kind_scenes], drawn) if kind_scenes in data else []

@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-from ulpgate_report import build, kind_scenes, records, table_text
+from ulpgate_report import build, records, table_text
 from ulpgate_report.errors import OutputFailure, ReportError
 
 EXIT_OK = 0
@@ -57,9 +57,8 @@ def main(argv):
         if arguments.to_terminal:
             _print_tables(parts)
         else:
-            for sentence in kind_scenes.missing(run.scenes) if run.scenes else ():
+            for sentence in build.write_report(run.context, parts, arguments.out):
                 print(f"report: {sentence}", file=sys.stderr)
-            build.write_report(run.context, parts, arguments.out)
     except ReportError as error:
         print(f"report: {error}", file=sys.stderr)
         return error.exit_code

@@ -33,9 +33,9 @@ _PARTS = (
     ("scene-states", "States", None, scene_tables.scene_states),
 )
 _MISSING = {
-    "snapshots": "No snapshots/SCENE_TYPE_STEP.csv: the bodies are not drawn.",
-    "divergence": "No series/divergence_SCENE_TYPE.csv: no divergence is drawn.",
-    "energy": "No series/SCENE_TYPE.csv: no energy is drawn.",
+    "snapshots": "No snapshots/SCENE_TYPE_STEP.csv with a sphere: the bodies are not drawn.",
+    "divergence": "No series/divergence_SCENE_TYPE.csv with a difference: no divergence is drawn.",
+    "energy": "No series/SCENE_TYPE.csv with a row: no energy is drawn.",
     "benchmark": "No line of a scene in timing.jsonl: no speed is drawn.",
 }
 
@@ -65,18 +65,21 @@ def headline(scenes):
     return [(text + (f", up to {bodies:,} bodies." if bodies else "."), False)]
 
 
-def missing(scenes):
-    """A sentence for each figure that is left out, and for each file whose name tells nothing."""
-    there = {
-        "snapshots": scenes.snapshots,
-        "divergence": scenes.divergences,
-        "energy": scenes.series,
-        "benchmark": scenes.timings,
-    }
-    found = [_MISSING[family] for family, what in there.items() if not what]
-    return found + [
-        f"{name}: tells no scene and type; left out." for name in scenes.unknown
+def _left_out(scenes):
+    return [
+        f"{name}: the name tells no scene and type; left out."
+        for name in scenes.unknown
     ]
+
+
+def notes(scenes, drawn):
+    """A sentence for each family of figures without a figure, and for each file whose name tells nothing."""
+    missing = [
+        sentence
+        for family, sentence in _MISSING.items()
+        if not any(name.startswith(f"{family}_") for name in drawn)
+    ]
+    return missing + _left_out(scenes)
 
 
 def sections(scenes, drawn):
@@ -91,10 +94,7 @@ def sections(scenes, drawn):
             blocks += page_views.figures(drawn, family, title, _MISSING[family])
         if blocks:
             found.append(page_views.section(name, title, *blocks))
-    unknown = [
-        page_views.note(f"{name}: tells no scene and type; left out.")
-        for name in scenes.unknown
-    ]
+    unknown = [page_views.note(sentence) for sentence in _left_out(scenes)]
     if unknown:
         found.append(page_views.section("scene-files", "Files left out", *unknown))
     return found

@@ -6,16 +6,23 @@ import jinja2
 from ulpgate_report.page_views import shown
 
 _TEMPLATES = Path(__file__).resolve().parent / "templates"
-# Long lists that the page shows as tables, or that the tables name anyway.
-_NOT_SHOWN = {"types", "functions", "kernels"}
+
+
+def _is_long_list(value):
+    """Functions, kernels, types: the page shows them as tables, or the tables name them anyway."""
+    return isinstance(value, list) and any(isinstance(one, dict) for one in value)
 
 
 def _context_view(context):
     """(name, text) of everything in the context but the long lists."""
     order = ("tool", "plan", "seed", "complete", "shards", "samples", "strata")
     order += ("compiler", "flags", "build_type", "libraries", "cpu", "threads")
-    rest = sorted(set(context) - set(order) - _NOT_SHOWN)
-    names = [name for name in (*order, *rest) if name in context]
+    rest = sorted(set(context) - set(order))
+    names = [
+        name
+        for name in (*order, *rest)
+        if name in context and not _is_long_list(context[name])
+    ]
     return [(name.replace("_", " "), shown(context[name])) for name in names]
 
 

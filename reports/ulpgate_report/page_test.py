@@ -33,14 +33,16 @@ class References(html.parser.HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.fetched, self.scripts, self.tables = [], 0, []
+        self.fetched, self.scripts, self.tables, self.ids = [], 0, [], []
 
     def handle_starttag(self, tag, attributes):
         for name, value in attributes:
             if name in ("src", "href", "xlink:href", "data", "action", "poster"):
                 self.fetched.append((tag, value))
-            if tag == "table" and name == "id":
-                self.tables.append(value)
+            if name == "id":
+                self.ids.append(value)
+                if tag == "table":
+                    self.tables.append(value)
         self.scripts += tag == "script"
         assert tag not in ("link", "iframe", "object", "embed", "base")
 
@@ -52,6 +54,8 @@ def test_page_stands_alone(report):
     assert page.fetched
     outside = [(tag, value) for tag, value in page.fetched if not value.startswith("#")]
     assert outside == []
+    assert len(set(page.ids)) == len(page.ids)
+    assert {value[1:] for _, value in page.fetched} <= set(page.ids)
     assert "@import" not in text and "url(http" not in text
     assert "<?xml" not in text
     expected = [

@@ -89,10 +89,15 @@ def note(text):
     return {"kind": "note", "text": text}
 
 
-def _inline_svg(text):
-    """The svg element alone: no prolog, and no metadata, whose links nobody follows."""
+def _inline_svg(name, text):
+    """The svg element alone: no prolog, and no metadata, whose links nobody follows.
+
+    Its ids get the figure's name before them: those of two figures would be the same.
+    """
     element = text[text.index("<svg") :]
-    return Markup(re.sub(r"<metadata>.*?</metadata>", "", element, flags=re.DOTALL))
+    element = re.sub(r"<metadata>.*?</metadata>", "", element, flags=re.DOTALL)
+    prefix = re.sub(r"[^A-Za-z0-9_.-]", "-", name) + "-"
+    return Markup(re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{prefix}", element))
 
 
 def figures(drawn, family, title, none_text):
@@ -101,7 +106,7 @@ def figures(drawn, family, title, none_text):
         {
             "kind": "figure",
             "title": title,
-            "svg": _inline_svg(svg),
+            "svg": _inline_svg(name, svg),
             "caption": caption,
         }
         for name, (svg, caption) in drawn.items()

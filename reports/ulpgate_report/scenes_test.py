@@ -21,6 +21,7 @@ from ulpgate_report import (
     type_order,
 )
 from ulpgate_report.latex_check import compile_tables, needs_latex
+from ulpgate_report.page_test import References
 from ulpgate_report.records_test import edit_line, with_fields, without
 
 TOKENS = ("float", "double", "long_double", "mpfr62")
@@ -94,6 +95,13 @@ SNAPSHOT = "snapshots/deposition_double_3000.csv"
             "of another kind of line",
         ),
         ("timing.jsonl", 3, without("scene"), "timing.jsonl:3", "no scene"),
+        (
+            "timing.jsonl",
+            3,
+            with_fields(scene="../a"),
+            "timing.jsonl:3: scene",
+            "would write elsewhere",
+        ),
         ("timing.jsonl", 3, lambda s: s + "\n" + s, "timing.jsonl:4", "twice"),
         (SERIES, 5, lambda s: s[: len(s) // 2], f"{SERIES}:5", "too few fields"),
         (SERIES, 5, lambda s: s + ",1", f"{SERIES}:5", "too many fields"),
@@ -269,6 +277,11 @@ def test_scenes_and_kernels_share_a_page(run_directory, tmp_path):
     assert cli.main([str(run_directory), "--out", str(tmp_path)]) == 0
     page = (tmp_path / "index.html").read_text("utf-8")
     assert 'id="kernel_stability"' in page and 'id="scene_table"' in page
+    found = References()
+    found.feed(page)
+    assert len(set(found.ids)) == len(found.ids), "of six figures on one page"
+    links = [value for _, value in found.fetched if not value.startswith("data:image/")]
+    assert {link[1:] for link in links} <= set(found.ids)
     summary = json.loads((tmp_path / "summary.json").read_text("utf-8"))
     reading.validator("summary").validate(summary)
     assert len(summary["scenes"]) == len(TOKENS) and summary["kernels"]

@@ -31,7 +31,12 @@ def render(table):
             numeric = column.kind in cell_text.NUMERIC_KINDS
             parts.append(text.rjust(width) if numeric else text.ljust(width))
         texts.append("  ".join(parts).rstrip())
-    total = sum(widths) + 2 * (len(widths) - 1)
+    # A command may be as long as a page is wide many times over; the rule and the caption are not.
+    shown = [
+        len(column.title) if column.kind == "command" else width
+        for width, column in zip(widths, table.columns)
+    ]
+    total = sum(shown) + 2 * (len(shown) - 1)
     texts.insert(1, "-" * total)
     caption = textwrap.wrap(table.caption, max(total, NARROWEST_CAPTION))
     return "\n".join([*texts, "", *caption, ""])
