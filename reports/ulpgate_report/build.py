@@ -1,74 +1,102 @@
-"""Writes a whole report: one row below for each thing that is made."""
+"""Writes a whole report: the tables, figures and sections of every kind of record that the run has."""
 from ulpgate_report import (
-    figure_distributions,
-    figure_error_vs_time,
-    figure_heatmap,
     figure_style,
+    kind_kernels,
+    kind_math,
+    kind_scenes,
     output,
     page,
     summary,
     table_csv,
     table_latex,
     table_markdown,
-    tables,
 )
 
+KINDS = (kind_math, kind_kernels, kind_scenes)
 _FORMATS = {
     "csv": table_csv.render,
     "md": table_markdown.render,
     "tex": table_latex.render,
 }
-# What is tabled, and in which formats.
-TABLES = (
-    (tables.paper_table, ("tex", "md", "csv")),
-    (tables.ulp_matrix, ("tex", "md", "csv")),
-    (tables.ulp_table, ("tex", "md", "csv")),
-    (tables.long_table, ("md", "csv")),
-    (tables.mismatch_table, ("md", "csv")),
-)
-# What is drawn: each gives (name, caption, figure or None where there is nothing to draw).
-FIGURES = (
-    figure_heatmap.draw,
-    figure_error_vs_time.draw,
-    figure_distributions.draw_real,
-    figure_distributions.draw_complex,
-    figure_distributions.draw_special,
-)
 
 
-def _write_tables(combined, out):
-    in_document = []
-    for make, formats in TABLES:
-        table = make(combined)
-        for form in formats:
-            output.write_text(out / f"{table.name}.{form}", _FORMATS[form](table))
-        if "tex" in formats:
-            in_document.append(table.name)
+def parts_of(run):
+    """[(kind, its data)] of what was run."""
+    found = [(kind, kind.of(run)) for kind in KINDS]
+    return [(kind, data) for kind, data in found if data is not None]
+
+
+def _write_tables(parts, out):
+    written, in_document = set(), []
+    for kind, data in parts:
+        for make, formats in kind.TABLES:
+            table = make(data)
+            for form in formats:
+                name = f"{table.name}.{form}"
+                output.write_text(out / name, _FORMATS[form](table))
+                written.add(name)
+            if "tex" in formats and table.rows:
+                in_document.append(table)
     output.write_text(out / "tables.tex", table_latex.document(in_document))
+    # An older report's table would pass for this run's.
+    for kind in KINDS:
+        for make, formats in kind.TABLES:
+            for form in formats:
+                if f"{make.__name__}.{form}" not in written:
+                    output.remove(out / f"{make.__name__}.{form}")
 
 
-def _write_figures(combined, out):
+def _drawn(kind, data):
+    """Yield (name, caption, figure) of all figures of a kind that exist."""
+    for draw in kind.FIGURES:
+        made = draw(data)
+        for name, caption, figure in [made] if isinstance(made, tuple) else made:
+            if figure is not None:
+                yield name, caption, figure
+
+
+def _remove_stale_figures(folder, drawn):
+    families = tuple(family for kind in KINDS for family in kind.FAMILIES)
+    for suffix in (*figure_style.SUFFIXES, "caption.txt"):
+        for path in sorted(folder.glob(f"*.{suffix}")):
+            name = path.name.removesuffix(f".{suffix}")
+            if name.startswith(families) and name not in drawn:
+                output.remove(path)
+
+
+def _write_figures(parts, out):
     """Write the figures; returns the SVG text and caption of each by its name."""
     drawn = {}
-    for draw in FIGURES:
-        name, caption, figure = draw(combined)
-        base = out / "figures" / name
-        if figure is None:
-            # An older report's figure would pass for this run's.
-            for suffix in (*figure_style.SUFFIXES, "caption.txt"):
-                output.remove(f"{base}.{suffix}")
-            continue
-        files = figure_style.render(figure, name)
-        for suffix, data in files.items():
-            output.write_bytes(f"{base}.{suffix}", data)
-        output.write_text(f"{base}.caption.txt", caption + "\n")
-        drawn[name] = (files["svg"].decode("utf-8"), caption)
+    for kind, data in parts:
+        for name, caption, figure in _drawn(kind, data):
+            base = out / "figures" / name
+            files = figure_style.render(figure, name)
+            for suffix, content in files.items():
+                output.write_bytes(f"{base}.{suffix}", content)
+            output.write_text(f"{base}.caption.txt", caption + "\n")
+            drawn[name] = (files["svg"].decode("utf-8"), caption)
+    _remove_stale_figures(out / "figures", drawn)
     return drawn
 
 
-def write_report(combined, out):
-    """Write all tables, figures, the page and the summary to the folder `out`."""
-    _write_tables(combined, out)
-    output.write_text(out / "summary.json", summary.render(combined))
-    drawn = _write_figures(combined, out)
-    output.write_text(out / "index.html", page.render(combined, drawn))
+def write_report(context, parts, out):
+    """Write all tables, figures, the page and the summary to the folder `out`.
+
+    Returns a sentence for each thing that is left out for lack of a file.
+    """
+    _write_tables(parts, out)
+    data = dict(parts)
+    output.write_text(
+        out / "summary.json",
+        summary.render(
+            context, data.get(kind_math), data.get(kind_kernels), data.get(kind_scenes)
+        ),
+    )
+    drawn = _write_figures(parts, out)
+    sections = [one for kind, d in parts for one in kind.sections(d, drawn)]
+    curves = kind_math.distributions(data[kind_math]) if kind_math in data else None
+    headlines = [kind.headline(d) for kind, d in parts]
+    output.write_text(
+        out / "index.html", page.render(context, headlines, sections, curves)
+    )
+    return kind_scenes.notes(data[kind_scenes], drawn) if kind_scenes in data else []

@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-from ulpgate_report import build, combine, records, table_text, tables
+from ulpgate_report import build, records, table_text
 from ulpgate_report.errors import OutputFailure, ReportError
 
 EXIT_OK = 0
@@ -13,7 +13,8 @@ EXIT_OK = 0
 def _parser():
     parser = argparse.ArgumentParser(
         prog="report",
-        description="Tables, figures and a page from the records that `ulpgate math --out DIR` wrote.",
+        description="Tables, figures and a page from the records that `ulpgate` wrote to DIR: of math functions, of DEM kernels "
+        "and of scenes, whichever are there.",
         epilog="exit codes: 0 ok, 2 bad usage or invalid input, 3 nothing measured, 4 I/O failure",
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="the records")
@@ -23,14 +24,15 @@ def _parser():
         "--print",
         dest="to_terminal",
         action="store_true",
-        help="print the table of maximum ULP errors",
+        help="print the main tables",
     )
     return parser
 
 
-def _print_table(combined):
+def _print_tables(parts):
+    shown = [table for kind, data in parts for table in kind.printed(data)]
     try:
-        sys.stdout.write(table_text.render(tables.ulp_matrix(combined)))
+        sys.stdout.write("\n".join(map(table_text.render, shown)))
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader, `head` say, has seen enough. Python would flush once more at exit and complain.
@@ -46,16 +48,17 @@ def main(argv):
     arguments = _parser().parse_args(argv)
     try:
         run = records.load(arguments.directory)
-        combined = combine.combine_run(run)
-        if not run.context["complete"]:
+        parts = build.parts_of(run)
+        if not run.context.get("complete", True):
             print(
                 "report: the run is incomplete; missing samples are not judged",
                 file=sys.stderr,
             )
         if arguments.to_terminal:
-            _print_table(combined)
+            _print_tables(parts)
         else:
-            build.write_report(combined, arguments.out)
+            for sentence in build.write_report(run.context, parts, arguments.out):
+                print(f"report: {sentence}", file=sys.stderr)
     except ReportError as error:
         print(f"report: {error}", file=sys.stderr)
         return error.exit_code

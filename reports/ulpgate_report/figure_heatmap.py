@@ -1,18 +1,7 @@
 """The heat map: maximum ULP error, function by type, with the number in the cell and mismatches marked."""
-import math
-
-import matplotlib
-from matplotlib import pyplot
-from matplotlib.patches import Polygon, Rectangle
-
-from ulpgate_report import figure_style, heat_colours, numbers
+from ulpgate_report import figure_style, heat_colours, heat_grid
 
 NAME = "heatmap"
-ROW_INCHES = 0.165
-COLUMN_INCHES = 0.56
-LABEL_INCHES = 1.25
-# More rows than these go to a second block beside the first.
-ROWS_OF_ONE_BLOCK = 30
 
 
 def _caption(combined):
@@ -26,149 +15,27 @@ def _caption(combined):
     )
 
 
-def _blocks(rows):
-    if len(rows) <= ROWS_OF_ONE_BLOCK:
-        return [rows]
-    half = math.ceil(len(rows) / 2)
-    # A complex function's two parts stay together.
-    if rows[half - 1].function == rows[half].function:
-        half += 1
-    return [rows[:half], rows[half:]]
-
-
-def _draw_mismatch(axes, x, y):
-    """A triangle in the upper right corner of the cell at (x, y)."""
-    corner = [(x + 0.8, y + 0.04), (x + 0.98, y + 0.04), (x + 0.98, y + 0.6)]
-    axes.add_patch(
-        Polygon(
-            corner,
-            facecolor=figure_style.MISMATCH_COLOUR,
-            edgecolor="white",
-            linewidth=0.5,
-            zorder=3,
-            clip_on=False,
-        )
-    )
-
-
-def _draw_cell(axes, x, y, cell):
-    value = None if cell is None else cell.max_ulp
-    if value is None:
-        axes.text(x + 0.5, y + 0.5, "-", ha="center", va="center", color="0.5", size=6)
-    else:
-        infinite = value == numbers.INFINITE
-        axes.add_patch(
-            Rectangle(
-                (x, y),
-                1,
-                1,
-                facecolor=heat_colours.background(value),
-                edgecolor="0.3" if infinite else "white",
-                hatch="/////" if infinite else None,
-                linewidth=0.4,
-            )
-        )
-        # The hatch of an infinite error would run through its text.
-        box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
-        axes.text(
-            x + 0.5,
-            y + 0.53,
-            numbers.short_ulp(value),
-            ha="center",
-            va="center",
-            size=6,
-            color=heat_colours.foreground(value),
-            bbox=box if infinite else None,
-        )
-    if cell is not None and cell.mismatches:
-        _draw_mismatch(axes, x, y)
-
-
-def _draw_block(axes, rows, combined):
-    tokens = combined.type_tokens
-    axes.set_xlim(0, len(tokens))
-    axes.set_ylim(len(rows), 0)
-    for y, row in enumerate(rows):
-        for x, token in enumerate(tokens):
-            _draw_cell(axes, x, y, combined.cells.get((row, token)))
-        if y and row.function_class != rows[y - 1].function_class:
-            axes.axhline(y, color="black", linewidth=0.8, zorder=4)
-    axes.set_yticks(
-        [y + 0.5 for y in range(len(rows))], [row.label for row in rows], size=6.5
-    )
-    axes.xaxis.tick_top()
-    # Slanted heads of long names would run out of the last column; upright ones fit above every cell.
-    axes.set_xticks(
-        [x + 0.5 for x in range(len(tokens))], tokens, size=6.5, rotation=90
-    )
-    axes.tick_params(length=0, pad=2)
-    for spine in axes.spines.values():
-        spine.set_visible(False)
-
-
-def _draw_legend(figure, left, bottom, width):
-    """The colour bar and the mismatch symbol below the blocks; sizes in shares of the figure."""
-    height = 0.11 / figure.get_figheight()
-    bar = figure.add_axes([left, bottom, width, height])
-    scale = matplotlib.colors.Normalize(
-        heat_colours.LOWEST_LOG10_ULP, heat_colours.HIGHEST_LOG10_ULP
-    )
-    ticks = [heat_colours.LOWEST_LOG10_ULP, *range(1, 7)]
-    labels = ["0.5", "10", *(figure_style.power_of_ten(n) for n in range(2, 7))]
-    colour_bar = figure.colorbar(
-        matplotlib.cm.ScalarMappable(scale, heat_colours.COLOUR_MAP),
-        cax=bar,
-        orientation="horizontal",
-        ticks=ticks,
-    )
-    colour_bar.ax.set_xticklabels(labels, size=6.5)
-    colour_bar.outline.set_linewidth(0.4)
-    colour_bar.set_label("maximum error (ULP), log scale", size=7.5)
-    # Samples of the cells' marks, drawn as the cells are.
-    key = figure.add_axes(
-        [
-            left + width + 0.35 / figure.get_figwidth(),
-            bottom - 0.6 * height,
-            3 * COLUMN_INCHES / figure.get_figwidth(),
-            2 * ROW_INCHES / figure.get_figheight(),
-        ]
-    )
-    key.set_xlim(0, 3)
-    key.set_ylim(2, 0)
-    key.axis("off")
-    _draw_mismatch(key, -0.8, 0.15)
-    key.text(0.3, 0.5, "wrong kind of result occurred", size=6.5, va="center")
-    key.text(
-        0.3, 1.5, "- nothing judged; hatched: infinite error", size=6.5, va="center"
-    )
+def _ticks():
+    powers = {float(n): figure_style.power_of_ten(n) for n in range(2, 7)}
+    return {heat_colours.ULP.lowest_log10: "0.5", 1.0: "10", **powers}
 
 
 def draw(combined):
     """(name, caption, figure)."""
-    blocks = _blocks(combined.rows)
-    columns = len(combined.type_tokens)
-    block_width = LABEL_INCHES + columns * COLUMN_INCHES
-    height = max(map(len, blocks)) * ROW_INCHES
-    below, above = 0.65, 1.0
-    figure = pyplot.figure(figsize=(block_width * len(blocks), height + below + above))
-    total_width, total_height = figure.get_size_inches()
-    for index, rows in enumerate(blocks):
-        left = index * block_width + LABEL_INCHES
-        top = below + height
-        inches = len(rows) * ROW_INCHES
-        axes = figure.add_axes(
-            [
-                left / total_width,
-                (top - inches) / total_height,
-                columns * COLUMN_INCHES / total_width,
-                inches / total_height,
-            ]
-        )
-        _draw_block(axes, rows, combined)
-    _draw_legend(
-        figure,
-        LABEL_INCHES / total_width,
-        0.35 / total_height,
-        2.6 / total_width,
+
+    def cell_of(row, token):
+        cell = combined.cells.get((row, token))
+        return cell and (cell.max_ulp, cell.mismatches > 0)
+
+    grid = heat_grid.Grid(
+        rows=combined.rows,
+        columns=combined.type_tokens,
+        cell_of=cell_of,
+        function_of=lambda row: row.function,
+        group_of=lambda row: row.function_class,
+        scale=heat_colours.ULP,
+        ticks=_ticks(),
+        bar_label="maximum error (ULP), log scale",
+        mark_text="wrong kind of result occurred",
     )
-    return NAME, _caption(combined), figure
+    return NAME, _caption(combined), heat_grid.draw(grid)

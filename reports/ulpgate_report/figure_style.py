@@ -84,6 +84,19 @@ def power_of_ten(exponent):
     return rf"$10^{{{exponent}}}$"
 
 
+def log_axis(axis):
+    """Make an axis logarithmic, with ticks at multiples of a pleasant power of ten where it spans many."""
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+    low, high = axis.get_view_interval()
+    low, high = math.log10(low), math.log10(high)
+    step = log10_tick_step(high - low, 7)
+    if step > 1:
+        first = math.ceil(low / step)
+        ticks = [step * n for n in range(first, math.floor(high / step) + 1)]
+        axis.set_ticks([10.0**n for n in ticks], [power_of_ten(n) for n in ticks])
+        axis.set_ticks([], minor=True)
+
+
 def log10_tick_step(span_decades, most=8):
     """The smallest pleasant step that gives at most `most` ticks on `span_decades`."""
     for step in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000):

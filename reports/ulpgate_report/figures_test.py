@@ -140,4 +140,4 @@ def test_shares_keep_every_sample():
     ],
 )
 def test_heat_position(value, expected, why):
-    assert heat_colours.position(value) == pytest.approx(expected), why
+    assert heat_colours.ULP.position(value) == pytest.approx(expected), why

@@ -79,6 +79,25 @@ def exact_text(value):
     return repr(value)
 
 
+def signed(value):
+    """A number of a scene's record: as `measured`, but "-inf" and "nan" may occur too."""
+    return float(value) if isinstance(value, str) else value
+
+
+def short_real(value):
+    """A number of either sign with six digits: -0.345608, 2.69160, 4.133e-9."""
+    if value is None:
+        return "-"
+    if not math.isfinite(value):
+        return str(float(value))
+    if value == int(value) and abs(value) < 1e6:
+        return str(int(value))
+    if 1e-4 <= abs(value) < 1e6:
+        return f"{value:.6g}"
+    mantissa, exponent = f"{value:.5e}".split("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
 def short_hexfloat(text, digits):
     """A hexfloat with its mantissa cut to `digits` characters after the prefix, `...` where it was cut."""
     found = _HEXFLOAT.match(text)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ulpgate_report import cli, records, sample_records
+from ulpgate_report import cli, reading, sample_records
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 SCRIPT_NAME = '<script>alert("x")</script>'
@@ -33,14 +33,16 @@ class References(html.parser.HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.fetched, self.scripts, self.tables = [], 0, []
+        self.fetched, self.scripts, self.tables, self.ids = [], 0, [], []
 
     def handle_starttag(self, tag, attributes):
         for name, value in attributes:
             if name in ("src", "href", "xlink:href", "data", "action", "poster"):
                 self.fetched.append((tag, value))
-            if tag == "table" and name == "id":
-                self.tables.append(value)
+            if name == "id":
+                self.ids.append(value)
+                if tag == "table":
+                    self.tables.append(value)
         self.scripts += tag == "script"
         assert tag not in ("link", "iframe", "object", "embed", "base")
 
@@ -52,6 +54,8 @@ def test_page_stands_alone(report):
     assert page.fetched
     outside = [(tag, value) for tag, value in page.fetched if not value.startswith("#")]
     assert outside == []
+    assert len(set(page.ids)) == len(page.ids)
+    assert {value[1:] for _, value in page.fetched} <= set(page.ids)
     assert "@import" not in text and "url(http" not in text
     assert "<?xml" not in text
     expected = [
@@ -90,7 +94,7 @@ def test_files_and_summary(report):
             assert (out / "figures" / f"{name}.{suffix}").stat().st_size > 0
     assert not list(out.rglob("*.part"))
     summary = json.loads((out / "summary.json").read_text("utf-8"))
-    records.validator("summary").validate(summary)
+    reading.validator("summary").validate(summary)
     assert len(summary["cells"]) == 4 * 7
     lines = [
         json.loads(line) for line in (report[0] / "math.jsonl").open(encoding="utf-8")
@@ -129,4 +133,4 @@ def test_scripts_parse(name):
 
 @pytest.mark.parametrize("name", ["context", "math", "timing", "summary"])
 def test_schemas_are_schemas(name):
-    assert records.validator(name).schema["title"]
+    assert reading.validator(name).schema["title"]

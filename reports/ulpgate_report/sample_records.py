@@ -30,7 +30,7 @@ ARITY = {"fma": 3, "sin": 1, "cos": 1, "pow": 2, "hypot": 2, "atan2": 2}
 TYPICAL_ULP = {"cpp_bin_float62": 120.0, "mpfr62": 0.5, "mpfr150": 0.5}
 
 
-def _share(*key):
+def share(*key):
     """A number of [0, 1) that depends on the key alone."""
     digest = hashlib.sha256("/".join(map(str, key)).encode()).digest()
     return int.from_bytes(digest[:6], "big") / 2**48
@@ -78,7 +78,7 @@ def context(names=None, types=TYPES, strata=STRATA):
 
 def _argument(digits, *key):
     digest = hashlib.sha512("/".join(map(str, key)).encode()).hexdigest()
-    exponent = int(_share(*key) * 40) - 20
+    exponent = int(share(*key) * 40) - 20
     return f"0x1.{digest[:digits]}p{exponent:+d}"
 
 
@@ -99,10 +99,10 @@ def record(entry, part, type_row, stratum, samples=1000):
     """One math record."""
     name, token, bits = entry["name"], type_row[0], type_row[-1]
     key = (name, part, token, stratum)
-    widest = TYPICAL_ULP.get(token, 0.6 + 2 * _share(name, part))
-    widest *= 10 ** (4 * max(0.0, _share(name, token) - 0.7)) if widest > 0.5 else 1
+    widest = TYPICAL_ULP.get(token, 0.6 + 2 * share(name, part))
+    widest *= 10 ** (4 * max(0.0, share(name, token) - 0.7)) if widest > 0.5 else 1
     exact = name in EXACT
-    max_ulp = 0 if exact else round(widest * (0.6 + 0.4 * _share(*key)), 6)
+    max_ulp = 0 if exact else round(widest * (0.6 + 0.4 * share(*key)), 6)
     digits = math.ceil((bits - 1) / 4)
     where = [_argument(digits, *key, i) for i in range(entry["arity"])]
     mismatch = dict.fromkeys(
@@ -111,7 +111,7 @@ def record(entry, part, type_row, stratum, samples=1000):
         0,
     )
     first = {}
-    if stratum == "edges" and _share(name, token) > 0.85:
+    if stratum == "edges" and share(name, token) > 0.85:
         mismatch["zero_sign"], first["zero_sign"] = 3, ["-0x0p+0"] * entry["arity"]
     judged = samples - sum(mismatch.values())
     buckets = [] if exact else _buckets(max_ulp, judged)
@@ -126,7 +126,7 @@ def record(entry, part, type_row, stratum, samples=1000):
         "seed": 42,
         "max_ulp": max_ulp,
         "argmax": where,
-        "argmax_index": int(_share(*key) * samples),
+        "argmax_index": int(share(*key) * samples),
         "got": "0x1p+0",
         "exact": "1.00000000000000000001",
         "max_float_distance": math.floor(max_ulp + 0.5),
@@ -139,7 +139,7 @@ def record(entry, part, type_row, stratum, samples=1000):
         "histogram": {"exact": judged if exact else 0, "buckets": buckets},
         "mismatch": mismatch,
         "mismatch_first": first,
-        "max_ulp_over_condition": max_ulp / (1 + 5 * _share("condition", *key)),
+        "max_ulp_over_condition": max_ulp / (1 + 5 * share("condition", *key)),
         "oracle": {
             "compared": samples // 10,
             "disagreed": 0,
@@ -171,7 +171,7 @@ def timing_records(run_context, types=TYPES):
     for entry in run_context["functions"]:
         for token, *_, bits in types:
             slow = 1 if bits < 64 else 3 if bits == 64 else bits
-            time_ns = round(2 * slow * (1 + 9 * _share("time", entry["name"])), 3)
+            time_ns = round(2 * slow * (1 + 9 * share("time", entry["name"])), 3)
             one = {"what": entry["name"], "type": token, "ns_per_eval": time_ns}
             found.append({**one, "repeats": 5, "batch": 1000})
     return found

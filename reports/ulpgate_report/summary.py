@@ -1,7 +1,7 @@
 """The combined numbers for programs: summary.json, held to its own schema."""
 import json
 
-from ulpgate_report import combine, numbers, records
+from ulpgate_report import combine, numbers, reading
 
 
 def _cell(combined, row, token):
@@ -36,29 +36,59 @@ def _cell(combined, row, token):
     }
 
 
-def build(combined):
-    """The summary as an object that its schema accepts."""
-    context = combined.context
-    found = {
-        "tool": context["tool"],
-        "plan": context["plan"],
-        "seed": context["seed"],
-        "complete": context["complete"],
-        "strata": list(combined.strata),
-        "paper_strata": [s for s in combine.PAPER_STRATA if s in combined.strata],
-        "types": list(combined.type_tokens),
-        "cells": [
-            _cell(combined, row, token)
-            for row in combined.rows
-            for token in combined.type_tokens
-            if (row, token) in combined.cells
-        ],
+def _kernel_cell(row, token, cell):
+    measured = {
+        "max_ulp": cell.max_ulp,
+        "max_normwise": cell.max_normwise,
+        "condition": cell.condition,
+        "max_normwise_over_condition": cell.max_normwise_over_condition,
     }
+    return {
+        "kernel": row.function,
+        "quantity": row.part,
+        "type": token,
+        "samples": cell.samples,
+        "max_ulp_stratum": cell.ulp_stratum,
+        "max_normwise_stratum": cell.normwise_stratum,
+        "verdict": cell.verdict,
+        "mismatches": cell.mismatches,
+        **{key: numbers.as_record(value) for key, value in measured.items()},
+    }
+
+
+def _all_cells(combined, make):
+    return [
+        make(row, token)
+        for row in combined.rows
+        for token in combined.type_tokens
+        if (row, token) in combined.cells
+    ]
+
+
+def build(context, combined=None, kernels=None, scenes=None):
+    """The summary as an object that its schema accepts; what was not run is left out."""
+    found = {"tool": context["tool"], "plan": context["plan"]}
+    judged = combined or kernels
+    if judged:
+        found["seed"] = context["seed"]
+        found["complete"] = context["complete"]
+        found["strata"] = list(judged.strata)
+        found["types"] = list(judged.type_tokens)
+    if combined:
+        found["paper_strata"] = [s for s in combine.PAPER_STRATA if s in judged.strata]
+        found["cells"] = _all_cells(combined, lambda *key: _cell(combined, *key))
+    if kernels:
+        found["kernels"] = _all_cells(
+            kernels, lambda *key: _kernel_cell(*key, kernels.cells[key])
+        )
+    if scenes:
+        found["scenes"] = list(scenes.records)
     # A broken summary is a fault of this program, not of its input: let it abort.
-    records.validator("summary").validate(found)
+    reading.validator("summary").validate(found)
     return found
 
 
-def render(combined):
+def render(context, combined=None, kernels=None, scenes=None):
     """The whole file."""
-    return json.dumps(build(combined), indent=1, sort_keys=True) + "\n"
+    found = build(context, combined, kernels, scenes)
+    return json.dumps(found, indent=1, sort_keys=True) + "\n"

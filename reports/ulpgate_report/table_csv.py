@@ -3,12 +3,17 @@ import csv
 import io
 
 from ulpgate_report import numbers
-from ulpgate_report.tables import Marked
+from ulpgate_report.tables import Judged, Marked
 
 
-def _is_matrix(table):
+def _mark_name(table):
+    """The name of what stands beside the values of a matrix, None for other tables."""
     # A cell without a record is None, so one marked cell anywhere tells.
-    return any(isinstance(value, Marked) for row in table.rows for value in row)
+    for row in table.rows:
+        for value in row:
+            if isinstance(value, (Marked, Judged)):
+                return value.mark_name
+    return None
 
 
 def _plain(value, kind):
@@ -16,19 +21,19 @@ def _plain(value, kind):
         return ""
     if kind == "arguments":
         return " ".join(value)
-    if kind in ("ulp", "distance"):
+    if kind in ("ulp", "distance", "real"):
         return numbers.exact_text(value)
     return str(value)
 
 
 def render(table):
     """The whole file."""
-    split = _is_matrix(table)
+    split = _mark_name(table)
     header = []
     for index, column in enumerate(table.columns):
         header.append(column.name)
         if split and index > 0:
-            header.append(f"{column.name}_mismatches")
+            header.append(f"{column.name}_{split}")
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(header)
@@ -37,7 +42,7 @@ def render(table):
         for index, (value, column) in enumerate(zip(row, table.columns)):
             if split and index > 0:
                 marked = value or Marked(None, "")
-                line += [_plain(marked.value, column.kind), str(marked.mismatches)]
+                line += [_plain(marked.value, column.kind), marked.mark_value]
             else:
                 line.append(_plain(value, column.kind))
         writer.writerow(line)

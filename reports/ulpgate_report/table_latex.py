@@ -1,7 +1,8 @@
 """Writes a table as a LaTeX longtable (booktabs, siunitx), and a document that shows all of them."""
-from ulpgate_report import cell_text, numbers
+from ulpgate_report import cell_text
 
 ARGUMENT_DIGITS = 13
+COLUMNS_OF_PORTRAIT = 9
 _SPECIAL = {
     "\\": r"\textbackslash{}",
     "~": r"\textasciitilde{}",
@@ -15,7 +16,8 @@ _SPECIAL = {
 
 _DOCUMENT = r"""\documentclass[a4paper]{article}
 \usepackage[utf8]{inputenc}
-\usepackage[margin=15mm]{geometry}
+\usepackage[margin=15mm%s]{geometry}
+\usepackage{array}
 \usepackage{booktabs}
 \usepackage{longtable}
 \usepackage{siunitx}
@@ -32,30 +34,35 @@ def escape(text):
 
 
 def _number(text):
-    if text == "inf":
-        return r"$\infty$"
-    return text if text == "-" else rf"\num{{{text}}}"
+    if text in ("inf", "-inf"):
+        return r"$-\infty$" if text[0] == "-" else r"$\infty$"
+    return text if text in ("-", "nan") else rf"\num{{{text}}}"
 
 
 def _text(cell, kind):
-    value, mismatches = cell_text.value_and_mark(cell)
+    value, mark = cell_text.value_and_mark(cell)
     shown = cell_text.short(cell, kind, ARGUMENT_DIGITS)
     if kind in cell_text.NUMERIC_KINDS:
         shown = "--" if value is None else _number(shown)
-    elif kind in ("code", "arguments"):
+    elif kind in cell_text.CODE_KINDS:
         shown = rf"\texttt{{{escape(shown)}}}"
     else:
         shown = escape(shown)
-    return shown + rf"\textsuperscript{{!{mismatches}}}" if mismatches else shown
+    return shown + rf"\textsuperscript{{{escape(mark)}}}" if mark else shown
+
+
+def _shape(kind):
+    if kind == "prose":
+        return r">{\raggedright\arraybackslash}p{70mm}"
+    return "r" if kind in cell_text.NUMERIC_KINDS else "l"
 
 
 def _caption(table):
     text = table.caption
     cut = any(
-        numbers.short_arguments(cell, ARGUMENT_DIGITS) != ", ".join(cell)
+        cell_text.is_cut(cell, column.kind, ARGUMENT_DIGITS)
         for row in table.rows
         for cell, column in zip(row, table.columns)
-        if column.kind == "arguments" and cell
     )
     if cut:
         text += " Long arguments are cut (...); the CSV file has them whole."
@@ -65,13 +72,13 @@ def _caption(table):
 def render(table):
     """The longtable; it repeats its head on every page."""
     kinds = [column.kind for column in table.columns]
-    shape = "".join("r" if kind in cell_text.NUMERIC_KINDS else "l" for kind in kinds)
+    shape = "".join(map(_shape, kinds))
     titles = []
     for column in table.columns:
         title = escape(column.title)
         # Types are told by their token, in the columns' heads as in the command line.
-        code = column.name == column.title and column.kind in ("ulp", "distance")
-        titles.append(rf"\texttt{{{title}}}" if code else title)
+        is_type = column.kind in ("ulp", "distance") and column.name == column.title
+        titles.append(rf"\texttt{{{title}}}" if is_type else title)
     head = [r"\toprule", " & ".join(titles) + r" \\", r"\midrule"]
     lines = [
         r"{\scriptsize\setlength{\tabcolsep}{3pt}",
@@ -89,6 +96,8 @@ def render(table):
     return "\n".join([*lines, r"\end{longtable}}", ""])
 
 
-def document(names):
-    """A complete document of the tables `names`, each in NAME.tex beside it."""
-    return _DOCUMENT % "\n".join(rf"\input{{{name}.tex}}" for name in names)
+def document(tables):
+    """A complete document of the tables, each in NAME.tex beside it; wide ones turn the paper."""
+    wide = any(len(table.columns) > COLUMNS_OF_PORTRAIT for table in tables)
+    inputs = "\n".join(rf"\input{{{table.name}.tex}}" for table in tables)
+    return _DOCUMENT % (",landscape" if wide else "", inputs)

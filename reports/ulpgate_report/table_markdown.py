@@ -5,14 +5,14 @@ _SPECIAL = str.maketrans({c: "\\" + c for c in "\\`*_{}[]<>#|~"})
 
 
 def _text(cell, kind):
-    value, mismatches = cell_text.value_and_mark(cell)
+    value, mark = cell_text.value_and_mark(cell)
     shown = cell_text.short(cell, kind)
-    if kind in ("code", "arguments") and value and "`" not in shown:
+    if kind in cell_text.CODE_KINDS and value and "`" not in shown:
         # A bar ends a cell even inside code.
         shown = "`" + shown.replace("|", "\\|") + "`"
     else:
         shown = shown.translate(_SPECIAL)
-    return f"{shown} **!{mismatches}**" if mismatches else shown
+    return f"{shown} **{mark}**" if mark else shown
 
 
 def render(table):

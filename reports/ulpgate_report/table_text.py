@@ -5,12 +5,17 @@ from ulpgate_report import cell_text
 
 ARGUMENT_DIGITS = 10
 NARROWEST_CAPTION = 72
+WIDEST_PROSE = 60
 
 
 def _text(cell, kind):
-    _, mismatches = cell_text.value_and_mark(cell)
-    shown = cell_text.short(cell, kind, ARGUMENT_DIGITS)
-    return f"{shown} !{mismatches}" if mismatches else shown
+    _, mark = cell_text.value_and_mark(cell)
+    # A command is there to be copied.
+    digits = None if kind == "command" else ARGUMENT_DIGITS
+    shown = cell_text.short(cell, kind, digits)
+    if kind == "prose":
+        shown = textwrap.shorten(shown, WIDEST_PROSE, placeholder=" ...")
+    return f"{shown} {mark}" if mark else shown
 
 
 def render(table):
@@ -26,7 +31,12 @@ def render(table):
             numeric = column.kind in cell_text.NUMERIC_KINDS
             parts.append(text.rjust(width) if numeric else text.ljust(width))
         texts.append("  ".join(parts).rstrip())
-    total = sum(widths) + 2 * (len(widths) - 1)
+    # A command may be as long as a page is wide many times over; the rule and the caption are not.
+    shown = [
+        len(column.title) if column.kind == "command" else width
+        for width, column in zip(widths, table.columns)
+    ]
+    total = sum(shown) + 2 * (len(shown) - 1)
     texts.insert(1, "-" * total)
     caption = textwrap.wrap(table.caption, max(total, NARROWEST_CAPTION))
     return "\n".join([*texts, "", *caption, ""])

@@ -7,7 +7,7 @@ from ulpgate_report.combine import PAPER_STRATA, Row
 
 @dataclass(frozen=True)
 class Column:
-    """A column; `kind` is one of text, code, count, ulp, distance, arguments."""
+    """A column; `kind` is one of text, code, count, ulp, distance, real, arguments, command, prose."""
 
     name: str
     title: str
@@ -20,6 +20,40 @@ class Marked:
 
     value: object
     mismatches: int
+
+    # What the second column of such a cell is called in CSV.
+    mark_name = "mismatches"
+
+    @property
+    def mark(self):
+        """What stands beside the value."""
+        return f"!{self.mismatches}" if self.mismatches else ""
+
+    @property
+    def mark_value(self):
+        """The mark for programs."""
+        return str(self.mismatches)
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A measured value with a verdict beside it, which is shown where it is not `good`."""
+
+    value: object
+    verdict: str
+    good: str = "stable"
+
+    mark_name = "verdict"
+
+    @property
+    def mark(self):
+        """What stands beside the value."""
+        return "" if self.verdict == self.good else self.verdict
+
+    @property
+    def mark_value(self):
+        """The verdict for programs."""
+        return self.verdict
 
 
 @dataclass(frozen=True)

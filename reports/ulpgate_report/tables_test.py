@@ -1,14 +1,12 @@
 """Tests of the tables in every format: numbers, marks, escapes, order; and that LaTeX takes them."""
 import csv
 import io
-import shutil
-import subprocess
 
 import pytest
 
 from ulpgate_report import (
-    build,
     combine,
+    kind_math,
     records,
     sample_records,
     table_csv,
@@ -17,6 +15,7 @@ from ulpgate_report import (
     table_text,
     tables,
 )
+from ulpgate_report.latex_check import compile_tables, needs_latex
 
 
 def combined_run(names, change=lambda record: None):
@@ -137,21 +136,8 @@ def test_names_are_escaped(text, latex, markdown, why):
     assert f"| {markdown} |" in table_markdown.render(table), why
 
 
-@pytest.mark.skipif(
-    shutil.which("pdflatex") is None, reason="pdflatex is not installed"
-)
+@needs_latex
 def test_latex_compiles_and_breaks_over_pages(tmp_path):
     run = combined_run(None, hard_values)
-    names = []
-    for make, formats in build.TABLES:
-        if "tex" in formats:
-            table = make(run)
-            names.append(table.name)
-            (tmp_path / f"{table.name}.tex").write_text(table_latex.render(table))
-    (tmp_path / "tables.tex").write_text(table_latex.document(names))
-    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "tables.tex"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, check=False)
-    log = done.stdout.decode("latin-1")
-    assert done.returncode == 0, log[-2000:]
-    assert (tmp_path / "tables.pdf").stat().st_size > 0
-    assert "(1 page" not in log
+    made = [make(run) for make, formats in kind_math.TABLES if "tex" in formats]
+    assert "(1 page" not in compile_tables(made, tmp_path)
