@@ -2,134 +2,23 @@
 // speed.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <numeric>
 
 #include "harness/app/commands.hpp"
 #include "harness/app/context.hpp"
 #include "harness/app/files.hpp"
 #include "harness/app/interrupt.hpp"
 #include "harness/app/progress.hpp"
-#include "harness/app/scene_files.hpp"
+#include "harness/app/scene_job.hpp"
 #include "harness/app/scene_output.hpp"
 #include "harness/app/selection.hpp"
-#include "harness/core/random_words.hpp"
-#include "kernels/scenes/expression.hpp"
-#include "kernels/scenes/scene_steps.hpp"
 
 namespace ulpgate::app {
 
 namespace {
 
-struct SceneOptions {
-  std::string name;
-  std::string types = "double";
-  std::vector<std::string> overrides;
-  std::string dt;
-  std::string until;
-  std::uint64_t steps = 0;
-  int threads = 1;
-  bool all_parts = false;
-  bool explain = false;
-  bool compare = false;
-  bool own_constants = false;
-  bool ladder = false;
-  bool record = false;
-  bool vtk = false;
-  std::string snapshots;
-  unsigned repeats = 0;
-  std::string out;
-  bool json = false;
-};
-
-struct Job {
-  LoadedScene loaded;
-  std::uint64_t steps = 0;
-  std::uint64_t record_every = 0;  // steps; 0: at the end only
-  std::vector<std::uint64_t> snapshot_steps;
-  std::string plan_text;
-  std::string plan;
-};
-
-Job make_job(const SceneOptions& o) {
-  Job job;
-  auto overrides = o.overrides;
-  if (!o.dt.empty()) overrides.push_back("dt=" + o.dt);
-  if (!o.until.empty()) overrides.push_back("until=" + o.until);
-  job.loaded = load_scene(o.name, overrides);
-  scenes::Scene& scene = job.loaded.scene;
-  // A record of a run keeps the energy account unless the scene's author left it out on purpose for a
-  // comparison.
-  if (o.record && !scene.records("energy")) {
-    scene.record.emplace_back("energy");
-    job.loaded.text += "\n# record energy";
-  }
-  job.steps = o.steps != 0 ? o.steps : scenes::steps_until_end(scene);
-  if (job.steps == 0) throw Failure(ExitCode::bad_input, fmt::format("{}: no step to take", o.name));
-  job.record_every = scenes::steps_between_records(scene);
-  for (const auto& time : split(o.snapshots, ',')) {
-    try {
-      job.snapshot_steps.push_back(scenes::steps_for(scene, time));
-    } catch (const scenes::ExpressionError& e) {
-      throw Failure(ExitCode::bad_input, fmt::format("--snapshots: {}", e.what()));
-    }
-  }
-  job.plan_text = fmt::format("ulpgate scene plan\nsteps {}\nscene {:016x}\n{}\n", job.steps,
-                              fnv1a(job.loaded.text), job.loaded.text);
-  job.plan = fmt::format("{:016x}", fnv1a(job.plan_text));
-  return job;
-}
-
-std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const Job& job,
-                                          const SceneOptions& o, bool all_parts) {
-  return dem::make_engine(token, level, job.loaded.scene, {all_parts, o.threads});
-}
-
-double seconds_per_step(dem::DemEngine& engine) {
-  using Clock = std::chrono::steady_clock;
-  engine.step(1);
-  // Grow the count until it takes long enough to be told from the clock's grain; keep the best of three.
-  double best = HUGE_VAL;
-  std::uint64_t count = 1;
-  for (int kept = 0; kept < 3;) {
-    const auto start = Clock::now();
-    engine.step(count);
-    const double taken = std::chrono::duration<double>(Clock::now() - start).count();
-    if (taken < 0.05) {
-      count *= 4;
-      continue;
-    }
-    best = std::min(best, taken / static_cast<double>(count));
-    ++kept;
-  }
-  return best;
-}
-
-void explain(const std::string& token, const Job& job, const SceneOptions& o) {
-  const auto lean = engine_of(token, dem::Level::own, job, o, false);
-  const auto full = engine_of(token, dem::Level::own, job, o, true);
-  fmt::print("{} in {}\n", job.loaded.scene.name, token);
-  for (const auto& part : lean->explain().left_out)
-    fmt::print("  left out: {:<12} {}\n", part.part, part.why);
-  if (lean->explain().left_out.empty()) fmt::print("  nothing is left out\n");
-  const std::size_t lean_bytes = lean->memory_bytes();
-  const std::size_t full_bytes = full->memory_bytes();
-  const double lean_ns = seconds_per_step(*lean) * 1e9;
-  const double full_ns = seconds_per_step(*full) * 1e9;
-  fmt::print("  {:<22} {:>14.1f} ns  {:>12} bytes\n", "step as it is", lean_ns, lean_bytes);
-  fmt::print("  {:<22} {:>14.1f} ns  {:>12} bytes  {:.2f} times slower\n", "step with all parts", full_ns,
-             full_bytes, full_ns / lean_ns);
-}
-
-ExitCode ladder(const std::string& token, const Job& job, const SceneOptions& o) {
+ExitCode ladder(const std::string& token, const SceneJob& job, const SceneOptions& o) {
   const RealDescriptor& type = type_or_fail(token).descriptor();
   if (type.format.precision <= 64) {
     fmt::print("{} in {}: the ladder needs a type of more digits than double\n", job.loaded.scene.name,
@@ -152,7 +41,7 @@ struct Written {
   bool complete = true;
 };
 
-void write_picture(const SceneOptions& o, const std::filesystem::path& out, const Job& job,
+void write_picture(const SceneOptions& o, const std::filesystem::path& out, const SceneJob& job,
                    const std::string& token, const dem::DemEngine& engine) {
   const std::string stem = fmt::format("{}_{}_{}", job.loaded.scene.name, token, engine.iteration());
   make_directory(out / "snapshots");
@@ -163,7 +52,7 @@ void write_picture(const SceneOptions& o, const std::filesystem::path& out, cons
   }
 }
 
-Written run_one(const std::string& token, const Job& job, const SceneOptions& o,
+Written run_one(const std::string& token, const SceneJob& job, const SceneOptions& o,
                 const std::filesystem::path& out) {
   auto engine = engine_of(token, dem::Level::own, job, o, o.all_parts);
   std::unique_ptr<dem::DemEngine> reference;
@@ -250,90 +139,14 @@ Written run_one(const std::string& token, const Job& job, const SceneOptions& o,
   return {j, complete};
 }
 
-// The paper's protocol: repeats from the start, each after one untimed step; points outside two standard
-// deviations are dropped.
-Json measure(const std::string& token, const Job& job, const SceneOptions& o) {
-  using Clock = std::chrono::steady_clock;
-  std::vector<double> rates;
-  for (unsigned r = 0; r < o.repeats && !interrupted(); ++r) {
-    const auto engine = engine_of(token, dem::Level::own, job, o, o.all_parts);
-    engine->step(1);
-    const auto start = Clock::now();
-    engine->step(job.steps);
-    rates.push_back(static_cast<double>(job.steps) /
-                    std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  const auto moments = [](const std::vector<double>& x) {
-    const double n = static_cast<double>(x.size());
-    const double mean = std::accumulate(x.begin(), x.end(), 0.0) / n;
-    double squares = 0;
-    for (const double v : x) squares += (v - mean) * (v - mean);
-    return std::pair(mean, n > 1 ? std::sqrt(squares / (n - 1)) : 0.0);
-  };
-  const auto [mean, deviation] = moments(rates);
-  std::vector<double> kept;
-  for (const double v : rates) {
-    if (std::fabs(v - mean) <= 2 * deviation) kept.push_back(v);
-  }
-  if (kept.empty()) kept = rates;
-  const auto [kept_mean, kept_deviation] = moments(kept);
-  return {{"what", "scene"},
-          {"scene", job.loaded.scene.name},
-          {"type", token},
-          {"threads", o.threads},
-          {"steps", job.steps},
-          {"repeats", rates.size()},
-          {"kept", kept.size()},
-          {"iterations_per_s", kept_mean},
-          {"deviation", kept_deviation}};
-}
-
-ExitCode run_bench(const Job& job, const SceneOptions& o, const std::vector<std::string>& types,
-                   const std::filesystem::path& out) {
-  std::vector<Json> rows;
-  double of_double = 0;
-  for (const auto& token : types) {
-    rows.push_back(measure(token, job, o));
-    if (token == "double") of_double = rows.back()["iterations_per_s"];
-  }
-  std::string text;
-  for (auto& row : rows) {
-    const double rate = row["iterations_per_s"];
-    if (of_double > 0) row["slowdown_against_double"] = of_double / rate;
-    text += row.dump() + "\n";
-    fmt::print(
-        "{:<12} {:<16} threads {}  {:>12.2f} +- {:.2f} iterations/s over {} of {} repeats of {} steps{}\n",
-        job.loaded.scene.name, row["type"].get<std::string>(), o.threads, rate,
-        row["deviation"].get<double>(), row["kept"].get<int>(), row["repeats"].get<int>(), job.steps,
-        of_double > 0 ? fmt::format(", {:.2f} times slower than double", of_double / rate) : "");
-  }
-  if (!out.empty()) write_file(out / "timing.jsonl", text);
-  return ExitCode::pass;
-}
-
-// Threads that wait for each other's parts of a step must sleep where other programs share the cores:
-// spinning costs ten times the step.  libgomp reads its policy before main, so the program starts itself
-// again with it.
-void let_waiting_threads_sleep(int threads) {
-  if (threads < 2 || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
-  ::setenv("OMP_WAIT_POLICY", "passive", 1);
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::string words((std::istreambuf_iterator<char>(in)), {});
-  std::vector<char*> argv;
-  for (std::size_t at = 0; at < words.size(); at += std::strlen(&words[at]) + 1) argv.push_back(&words[at]);
-  argv.push_back(nullptr);
-  // Where that fails the run is slower and no less right.
-  ::execv("/proc/self/exe", argv.data());
-}
-
 ExitCode run_scene(const SceneOptions& o) {
   let_waiting_threads_sleep(o.threads);
-  const Job job = make_job(o);
+  const SceneJob job = make_job(o);
   const auto types = select_types(o.types);
   const std::filesystem::path out = o.out;
   if (!o.out.empty()) make_directory(out);
   if (o.explain) {
-    for (const auto& token : types) explain(token, job, o);
+    for (const auto& token : types) explain_scene(token, job, o);
     return ExitCode::pass;
   }
   if (o.ladder) {
@@ -343,7 +156,7 @@ ExitCode run_scene(const SceneOptions& o) {
   }
   if (o.out.empty() && (o.record || o.vtk || !o.snapshots.empty()))
     throw Failure(ExitCode::bad_input, "--record, --snapshots and --vtk need --out DIR");
-  if (o.repeats != 0) return run_bench(job, o, types, out);
+  if (o.repeats != 0) return measure_scene(job, o, types, out);
   std::string text;
   bool complete = true;
   for (const auto& token : types) {

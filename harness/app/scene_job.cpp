@@ -1,0 +1,47 @@
+// SceneJob: options to scene, steps and plan.
+#include "harness/app/scene_job.hpp"
+
+#include <fmt/format.h>
+
+#include "harness/app/selection.hpp"
+#include "harness/core/random_words.hpp"
+#include "kernels/scenes/expression.hpp"
+#include "kernels/scenes/scene_steps.hpp"
+
+namespace ulpgate::app {
+
+SceneJob make_job(const SceneOptions& o) {
+  SceneJob job;
+  auto overrides = o.overrides;
+  if (!o.dt.empty()) overrides.push_back("dt=" + o.dt);
+  if (!o.until.empty()) overrides.push_back("until=" + o.until);
+  job.loaded = load_scene(o.name, overrides);
+  scenes::Scene& scene = job.loaded.scene;
+  // A record of a run keeps the energy account unless the scene's author left it out on purpose for a
+  // comparison.
+  if (o.record && !scene.records("energy")) {
+    scene.record.emplace_back("energy");
+    job.loaded.text += "\n# record energy";
+  }
+  job.steps = o.steps != 0 ? o.steps : scenes::steps_until_end(scene);
+  if (job.steps == 0) throw Failure(ExitCode::bad_input, fmt::format("{}: no step to take", o.name));
+  job.record_every = scenes::steps_between_records(scene);
+  for (const auto& time : split(o.snapshots, ',')) {
+    try {
+      job.snapshot_steps.push_back(scenes::steps_for(scene, time));
+    } catch (const scenes::ExpressionError& e) {
+      throw Failure(ExitCode::bad_input, fmt::format("--snapshots: {}", e.what()));
+    }
+  }
+  job.plan_text = fmt::format("ulpgate scene plan\nsteps {}\nscene {:016x}\n{}\n", job.steps,
+                              fnv1a(job.loaded.text), job.loaded.text);
+  job.plan = fmt::format("{:016x}", fnv1a(job.plan_text));
+  return job;
+}
+
+std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const SceneJob& job,
+                                          const SceneOptions& o, bool all_parts) {
+  return dem::make_engine(token, level, job.loaded.scene, {all_parts, o.threads});
+}
+
+}  // namespace ulpgate::app
