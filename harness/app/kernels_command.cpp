@@ -9,6 +9,7 @@
 #include "harness/app/crash_report.hpp"
 #include "harness/app/files.hpp"
 #include "harness/app/runner.hpp"
+#include "harness/app/timing.hpp"
 #include "harness/core/kernel_audit.hpp"
 
 namespace ulpgate::app {
@@ -24,6 +25,7 @@ struct KernelOptions {
   unsigned threads = 0;
   std::string shard = "0/1";
   std::string out;
+  bool timing = false;
   bool overwrite = false;
   bool audit = false;
   bool json = false;
@@ -99,6 +101,7 @@ ExitCode run_kernels(const KernelOptions& o) {
   write_file(out / kernel_records_file, text);
   const Json context = make_context(plan, {shard.text()}, threads, complete && shard.count == 1);
   write_file(out / "context.json", context.dump(2) + "\n");
+  if (o.timing && complete) write_file(out / "timing.jsonl", timing_text(measure_times(plan.request())));
   if (o.json) fmt::print("{}", text);
   if (!complete) {
     throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}", out.string()));
@@ -128,6 +131,7 @@ void add_kernels_command(CLI::App& app, Action& action) {
   kernels->add_option("--shard", o->shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")
       ->capture_default_str();
   kernels->add_option("--out", o->out, "directory of the records");
+  kernels->add_flag("--timing", o->timing, "write timing.jsonl: ns per evaluation of every kernel");
   kernels->add_flag("--audit", o->audit, "name kernels that hold a double literal instead of measuring");
   kernels->add_flag("--overwrite", o->overwrite, "write over the records of another plan");
   kernels->add_flag("--json", o->json, "print the records as well");

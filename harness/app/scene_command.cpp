@@ -156,6 +156,10 @@ ExitCode run_scene(const SceneOptions& o) {
   }
   if (o.out.empty() && (o.record || o.vtk || !o.snapshots.empty()))
     throw Failure(ExitCode::bad_input, "--record, --snapshots and --vtk need --out DIR");
+  if (o.correlate) {
+    (void)type_or_fail(o.reference);
+    return correlate_scene(job, o, types, out);
+  }
   if (o.repeats != 0) return measure_scene(job, o, types, out);
   std::string text;
   bool complete = true;
@@ -202,6 +206,11 @@ void add_scene_command(CLI::App& app, Action& action) {
   scene->add_flag("--own-constants", o->own_constants,
                   "with --compare: RealHP<4> makes constants from the scene's text instead of widening them");
   scene->add_flag("--ladder", o->ladder, "name constants that are good to the digits of a double only");
+  scene->add_flag(
+      "--correlate", o->correlate,
+      "how long each type stays true to the run in --reference, and whether rounding or the step limits it");
+  scene->add_option("--reference", o->reference, "with --correlate: the type of the reference run")
+      ->capture_default_str();
   scene->add_flag("--record", o->record, "write series/<scene>_<type>.csv with the energy account");
   scene->add_option("--snapshots", o->snapshots, "times in s, comma-separated: write snapshots/*.csv");
   scene->add_flag("--vtk", o->vtk, "with --snapshots: write vtk/*.vtk for ParaView as well");

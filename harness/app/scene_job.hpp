@@ -26,6 +26,8 @@ struct SceneOptions {
   bool compare = false;
   bool own_constants = false;
   bool ladder = false;
+  bool correlate = false;
+  std::string reference = "mpfr150";
   bool record = false;
   bool vtk = false;
   std::string snapshots;
@@ -54,6 +56,11 @@ void explain_scene(const std::string& token, const SceneJob& job, const SceneOpt
 // Iterations per second of every type; timing.jsonl where there is a directory.
 [[nodiscard]] ExitCode measure_scene(const SceneJob& job, const SceneOptions& o,
                                      const std::vector<std::string>& types, const std::filesystem::path& out);
+// Correlates the angles of a chain of bodies with the run in o.reference: t_s of every type, and what limits
+// it.
+[[nodiscard]] ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o,
+                                       const std::vector<std::string>& types,
+                                       const std::filesystem::path& out);
 // Starts the program again with a policy under which waiting threads sleep, where it has several.
 void let_waiting_threads_sleep(int threads);
 

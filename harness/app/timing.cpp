@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 
 #include "harness/app/crash_report.hpp"
 #include "harness/app/progress.hpp"
@@ -20,11 +21,13 @@ double seconds_of(TimedBatch& batch, std::size_t count, int rounds) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-TimingRecord measure(const TypeEngine& engine, const FunctionInfo& f) {
-  constexpr std::size_t batch_size = 512;
+constexpr std::size_t batch_size = 512;
+
+// `batch` holds batch_size points.
+TimingRecord measure(std::string_view what, const std::string& token,
+                     const std::unique_ptr<TimedBatch>& batch) {
   constexpr double enough_s = 5e-4;
   constexpr int repeats = 7;
-  const auto batch = engine.timed_batch(f, batch_size);
   // The warm-up finds how much one repeat must hold: a part of the batch for slow types, many rounds for fast
   // ones.
   const double first_s = seconds_of(*batch, 32, 1);
@@ -34,7 +37,7 @@ TimingRecord measure(const TypeEngine& engine, const FunctionInfo& f) {
   double best_s = seconds_of(*batch, count, rounds);
   for (int i = 1; i < repeats; ++i) best_s = std::min(best_s, seconds_of(*batch, count, rounds));
   const double evaluations = static_cast<double>(count) * rounds;
-  return {std::string(f.name), engine.descriptor().token, 1e9 * best_s / evaluations, repeats, count};
+  return {std::string(what), token, 1e9 * best_s / evaluations, repeats, count};
 }
 
 }  // namespace
@@ -45,9 +48,26 @@ std::vector<TimingRecord> measure_times(const PlanRequest& request) {
   for (const auto& token : request.types) {
     for (const auto id : request.functions) {
       const CrashPlace place(info_of(id).name, token, "timing");
-      records.push_back(measure(*find_engine(token), info_of(id)));
+      records.push_back(
+          measure(info_of(id).name, token, find_engine(token)->timed_batch(info_of(id), batch_size)));
       progress.update(static_cast<double>(records.size()),
                       static_cast<double>(request.types.size() * request.functions.size()));
+    }
+  }
+  return records;
+}
+
+std::vector<TimingRecord> measure_times(const KernelPlanRequest& request) {
+  std::vector<TimingRecord> records;
+  Progress progress("timing");
+  for (const auto& token : request.types) {
+    for (const auto id : request.kernels) {
+      const auto& kernel = dem::info_of(id);
+      const CrashPlace place(kernel.name, token, "timing");
+      records.push_back(
+          measure(kernel.name, token, find_kernel_engine(token)->timed_batch(kernel, batch_size)));
+      progress.update(static_cast<double>(records.size()),
+                      static_cast<double>(request.types.size() * request.kernels.size()));
     }
   }
   return records;

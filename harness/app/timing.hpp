@@ -1,9 +1,10 @@
-// Timing: nanoseconds per evaluation of every function of every type (timing.jsonl).
+// Timing: nanoseconds per evaluation of every function or kernel of every type (timing.jsonl).
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "harness/core/kernel_plan.hpp"
 #include "harness/core/plan.hpp"
 
 namespace ulpgate::app {
@@ -18,6 +19,8 @@ struct TimingRecord {
 
 // The minimum of repeats over one fixed batch of uniform arguments, after a warm-up; one thread.
 [[nodiscard]] std::vector<TimingRecord> measure_times(const PlanRequest& request);
+// The same of kernels, over typical states.
+[[nodiscard]] std::vector<TimingRecord> measure_times(const KernelPlanRequest& request);
 [[nodiscard]] std::string timing_text(const std::vector<TimingRecord>& records);
 
 }  // namespace ulpgate::app

@@ -57,6 +57,10 @@ class KernelEngine {
                                           std::uint64_t k) const = 0;
   [[nodiscard]] virtual KernelPoint point(const dem::KernelInfo& kernel,
                                           const std::vector<MpfrValue>& inputs) const = 0;
+
+  // `count` typical states, evaluated again and again.
+  [[nodiscard]] virtual std::unique_ptr<TimedBatch> timed_batch(const dem::KernelInfo& kernel,
+                                                                std::size_t count) const = 0;
 };
 
 // The engines of the types built in, in the order of the type list.

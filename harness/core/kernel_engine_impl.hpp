@@ -66,7 +66,31 @@ class KernelEngineOf final : public KernelEngine {
     return describe(e);
   }
 
+  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(const dem::KernelInfo& kernel,
+                                                        std::size_t count) const override {
+    return std::make_unique<Timed>(kernel, kernels_[static_cast<std::size_t>(kernel.id)], count);
+  }
+
  private:
+  class Timed final : public TimedBatch {
+   public:
+    Timed(const dem::KernelInfo& kernel, dem::BatchKernel<Real> evaluate, std::size_t count)
+        : evaluate_(evaluate),
+          inputs_(count * kernel.input_components()),
+          results_(count * kernel.output_components()),
+          threw_(count) {
+      const States<Real> states(kernel, {StateStratum::typical, 1, count});
+      for (std::size_t i = 0; i < count; ++i) states.make(i, &inputs_[i * kernel.input_components()]);
+    }
+    void run(std::size_t count) override { evaluate_(inputs_.data(), results_.data(), threw_.data(), count); }
+
+   private:
+    dem::BatchKernel<Real> evaluate_;
+    std::vector<Real> inputs_;
+    std::vector<Real> results_;
+    std::vector<std::uint8_t> threw_;
+  };
+
   // One kernel in one state: inputs, results and reference, with buffers that are used again for the next
   // state.
   struct Evaluation {

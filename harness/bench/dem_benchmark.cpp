@@ -1,0 +1,46 @@
+// Benchmarks of the DEM: every kernel of every type on typical states, and steps of the scenes.
+#include <benchmark/benchmark.h>
+
+#include "harness/app/scene_files.hpp"
+#include "harness/core/kernel_engine.hpp"
+#include "kernels/dem/engine.hpp"
+
+namespace {
+
+constexpr std::size_t batch = 256;
+
+void kernel(benchmark::State& state, const ulpgate::KernelEngine* engine,
+            const ulpgate::dem::KernelInfo* info) {
+  const auto timed = engine->timed_batch(*info, batch);
+  for (auto _ : state) timed->run(batch);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch));
+}
+
+// Steps from the start of the scene on; a scene that changes its character does so in every type alike.
+void scene(benchmark::State& state, const std::string& token, const std::string& name, bool all_parts) {
+  const auto loaded = ulpgate::app::load_scene(name, {});
+  const auto engine =
+      ulpgate::dem::make_engine(token, ulpgate::dem::Level::own, loaded.scene, {all_parts, 1});
+  engine->step(1);
+  for (auto _ : state) engine->step(1);
+  state.SetItemsProcessed(state.iterations());
+}
+
+[[maybe_unused]] const bool registered = [] {
+  for (const auto& engine : ulpgate::all_kernel_engines()) {
+    const std::string& token = engine->descriptor().token;
+    for (const auto& info : ulpgate::dem::all_kernels()) {
+      benchmark::RegisterBenchmark(("kernel/" + std::string(info.name) + "/" + token).c_str(), kernel,
+                                   engine.get(), &info);
+    }
+    for (const auto& builtin : ulpgate::app::builtin_scenes()) {
+      const std::string name = "scene/" + std::string(builtin.name) + "/" + token;
+      benchmark::RegisterBenchmark(name.c_str(), scene, token, std::string(builtin.name), false);
+      benchmark::RegisterBenchmark((name + "/all_parts").c_str(), scene, token, std::string(builtin.name),
+                                   true);
+    }
+  }
+  return true;
+}();
+
+}  // namespace
