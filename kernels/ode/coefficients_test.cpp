@@ -55,10 +55,11 @@ TEST(Compositions, MeetTheirOrderConditionsTo200Digits) {
 TEST(Compositions, KeepThePublishedDigits) {
   for (const CompositionRow& row : composition_rows()) {
     if (row.published.empty()) continue;
-    const std::vector<Reference> solved = solve_composition<Reference>(row);
+    const std::vector<Guarded<Reference>> solved = solve_composition<Guarded<Reference>>(row);
     for (std::size_t i = 0; i < solved.size(); ++i) {
-      // 14 decimals at least are in print; the central weight of Yoshida's is 1 less twice the sum of others.
-      EXPECT_LT(abs(solved[i] - real<Reference>(row.published[i])), real<Reference>("3e-14"))
+      // The last two of 15 digits in print are wrong in Yoshida's table 2: 2.8e-13 in solution D.
+      EXPECT_LT(abs(solved[i] - real<Guarded<Reference>>(row.published[i])),
+                real<Guarded<Reference>>("3e-13"))
           << row.name << " parameter " << i;
     }
   }

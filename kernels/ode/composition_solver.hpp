@@ -1,14 +1,14 @@
 // Solves the order conditions of a published composition to the full precision of a type.
 #pragma once
 
-#include <Eigen/LU>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernels/ode/composition_rows.hpp"
 #include "kernels/ode/order_conditions.hpp"
-#include "reference/eigen_traits.hpp"
 #include "reference/literal.hpp"
 
 namespace ulpgate::ode {
@@ -37,6 +37,52 @@ template <class Scalar>
 [[nodiscard]] std::vector<Factor<Scalar>> mirrored(std::vector<Factor<Scalar>> half) {
   for (std::size_t i = half.size() - 1; i-- > 0;) half.push_back(half[i]);
   return half;
+}
+
+// x of a x = b for a small square matrix, by elimination with row pivots.  Eigen's would cost every
+// translation unit some ten seconds per type.
+template <RealType Real>
+[[nodiscard]] std::vector<Real> solved_linear(std::vector<std::vector<Real>> a, std::vector<Real> b) {
+  const std::size_t n = b.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    std::size_t pivot = c;
+    for (std::size_t r = c + 1; r < n; ++r) {
+      if (abs(a[r][c]) > abs(a[pivot][c])) pivot = r;
+    }
+    std::swap(a[c], a[pivot]);
+    std::swap(b[c], b[pivot]);
+    for (std::size_t r = c + 1; r < n; ++r) {
+      const Real factor = a[r][c] / a[c][c];
+      for (std::size_t k = c; k < n; ++k) a[r][k] -= factor * a[c][k];
+      b[r] -= factor * b[c];
+    }
+  }
+  for (std::size_t c = n; c-- > 0;) {
+    for (std::size_t k = c + 1; k < n; ++k) b[c] -= a[c][k] * b[k];
+    b[c] /= a[c][c];
+  }
+  return b;
+}
+
+// The shortest d with J d = residual: d = J^T (J J^T)^-1 residual; columns[j] is column j of J.
+template <RealType Real>
+[[nodiscard]] std::vector<Real> shortest_solution(const std::vector<std::vector<Real>>& columns,
+                                                  const std::vector<Real>& residual) {
+  const std::size_t rows = residual.size();
+  std::vector<std::vector<Real>> gram(rows, std::vector<Real>(rows, Real(0)));
+  for (const std::vector<Real>& column : columns) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t k = 0; k < rows; ++k) gram[i][k] += column[i] * column[k];
+    }
+  }
+  const std::vector<Real> multipliers = solved_linear(std::move(gram), residual);
+  std::vector<Real> d;
+  for (const std::vector<Real>& column : columns) {
+    Real sum(0);
+    for (std::size_t i = 0; i < rows; ++i) sum += column[i] * multipliers[i];
+    d.push_back(sum);
+  }
+  return d;
 }
 
 }  // namespace detail
@@ -82,37 +128,29 @@ template <class Scalar>
 // published digits do not lead to a solution within 1e-8 of them.
 template <RealType Real>
 [[nodiscard]] std::vector<Real> solve_composition(const CompositionRow& row) {
-  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-  using Index = Eigen::Index;
   const std::size_t n = row.published.size();
   std::vector<Real> p;
   for (std::string_view digits : row.published) p.push_back(real<Real>(digits));
   const std::vector<Real> published = p;
   const Real settled = ldexp(Real(1), -std::numeric_limits<Real>::digits + 16);
   for (int iteration = 0; iteration < 30; ++iteration) {
-    Matrix jacobian;
-    Vector residual;
+    std::vector<std::vector<Real>> columns;
+    std::vector<Real> residual;
     for (std::size_t j = 0; j < n; ++j) {
       std::vector<Dual<Real>> direction;
       for (std::size_t k = 0; k < n; ++k) direction.emplace_back(p[k], Real(k == j ? 1 : 0));
-      const auto rows = order_residuals(row, direction);
-      if (j == 0) {
-        jacobian.resize(static_cast<Index>(rows.size()), static_cast<Index>(n));
-        residual.resize(static_cast<Index>(rows.size()));
-      }
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        jacobian(static_cast<Index>(i), static_cast<Index>(j)) = rows[i].slope;
-        residual(static_cast<Index>(i)) = rows[i].value;
+      columns.emplace_back();
+      residual.clear();
+      for (const Dual<Real>& condition : order_residuals(row, direction)) {
+        columns.back().push_back(condition.slope);
+        residual.push_back(condition.value);
       }
     }
-    const Matrix gram = jacobian * jacobian.transpose();
-    const Vector correction = jacobian.transpose() * gram.partialPivLu().solve(residual);
+    const std::vector<Real> correction = detail::shortest_solution(columns, residual);
     Real largest(0);
     for (std::size_t k = 0; k < n; ++k) {
-      const Real step = correction(static_cast<Index>(k));
-      p[k] -= step;
-      if (abs(step) > largest) largest = abs(step);
+      p[k] -= correction[k];
+      if (abs(correction[k]) > largest) largest = abs(correction[k]);
       if (!(abs(p[k] - published[k]) < ldexp(Real(1), -26))) {
         throw std::logic_error(std::string(row.name) + ": the published digits do not lead to a solution");
       }

@@ -128,10 +128,12 @@ class GaussStepper final : public Stepper<Real> {
 
  private:
   void iterate(const Real& t, const Real& h) {
+    using std::isfinite;
     constexpr int limit = 100 + std::numeric_limits<Real>::digits;
     Real before = std::numeric_limits<Real>::infinity();
     for (int iteration = 0; iteration < limit; ++iteration) {
       const auto [change, size] = renew_stages(t, h);
+      if (!isfinite(size) || !isfinite(change)) break;
       // Once a change is a matter of rounding it no longer shrinks, and may never become zero.
       const bool rounding = change <= 64 * std::numeric_limits<Real>::epsilon() * size;
       if (change == 0 || (rounding && change >= before)) return;

@@ -64,6 +64,9 @@ struct RangeAlgebra : boost::numeric::odeint::range_algebra {
 
 // As many controlled steps per call as hold the error of each below 2^8 units of rounding.  Throws
 // std::runtime_error when that takes more than a million trials.
+//
+// It always steps forward, in time reflected where h < 0: bulirsch_stoer of Boost 1.81 compares works per
+// step as if they were positive, and backward its steps shrink to nothing.
 template <RealType Real>
 class BulirschStoerStepper final : public Stepper<Real> {
  public:
@@ -71,22 +74,29 @@ class BulirschStoerStepper final : public Stepper<Real> {
       : Stepper<Real>(std::move(problem)), method_(tolerance(), tolerance()) {}
 
   void advance(const Real& t, const Real& h) override {
-    const auto system = [this](const std::vector<Real>& y, std::vector<Real>& out, const Real& at) {
-      this->problem().slope(at, y, out);
+    const Real sign = h < 0 ? Real(-1) : Real(1);
+    const auto system = [this, sign](const std::vector<Real>& y, std::vector<Real>& out, const Real& at) {
+      this->problem().slope(Real(sign * at), y, out);
+      if (sign < 0) {
+        for (Real& x : out) x = -x;
+      }
     };
-    const Real end = t + h;
-    Real now = t;
-    Real step = proposed_ == 0 ? h : proposed_;
+    Real now = sign * t;
+    const Real end = now + sign * h;
+    Real step = proposed_ == 0 ? Real(sign * h) : proposed_;
     for (int trial = 0; trial < 1'000'000; ++trial) {
-      const bool last = (end - now - step) * h <= 0;
+      const bool last = step >= end - now;
       // What is left is shorter than the proposal: take it, and remember the proposal for the next call.
       if (last) {
         proposed_ = step;
         step = end - now;
       }
+      const Real tried = step;
       const bool accepted =
           method_.try_step(system, this->state_to_advance(), now, step) == boost::numeric::odeint::success;
       if (accepted && last) return;
+      // After two rejections odeint may propose the same step for ever.
+      if (!accepted && !(step < tried)) step = tried / 2;
     }
     throw std::runtime_error("Bulirsch-Stoer: a million trials did not reach the end of the step");
   }
