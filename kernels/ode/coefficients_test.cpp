@@ -57,7 +57,7 @@ TEST(Compositions, KeepThePublishedDigits) {
     if (row.published.empty()) continue;
     const std::vector<Guarded<Reference>> solved = solve_composition<Guarded<Reference>>(row);
     for (std::size_t i = 0; i < solved.size(); ++i) {
-      // The last two of 15 digits in print are wrong in Yoshida's table 2: 2.8e-13 in solution D.
+      // The last digits in print are wrong in solution D of Yoshida's table 2, by up to 2.8e-13.
       EXPECT_LT(abs(solved[i] - real<Guarded<Reference>>(row.published[i])),
                 real<Guarded<Reference>>("3e-13"))
           << row.name << " parameter " << i;

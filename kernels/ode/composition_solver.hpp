@@ -1,6 +1,7 @@
 // Solves the order conditions of a published composition to the full precision of a type.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -43,6 +44,7 @@ template <class Scalar>
 // translation unit some ten seconds per type.
 template <RealType Real>
 [[nodiscard]] std::vector<Real> solved_linear(std::vector<std::vector<Real>> a, std::vector<Real> b) {
+  using std::abs;
   const std::size_t n = b.size();
   for (std::size_t c = 0; c < n; ++c) {
     std::size_t pivot = c;
@@ -128,6 +130,7 @@ template <class Scalar>
 // published digits do not lead to a solution within 1e-8 of them.
 template <RealType Real>
 [[nodiscard]] std::vector<Real> solve_composition(const CompositionRow& row) {
+  using std::abs, std::ldexp;
   const std::size_t n = row.published.size();
   std::vector<Real> p;
   for (std::string_view digits : row.published) p.push_back(real<Real>(digits));

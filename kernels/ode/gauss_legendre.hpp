@@ -41,6 +41,7 @@ template <RealType Real>
 
 template <RealType Real>
 [[nodiscard]] Real legendre_root(int s, int i) {
+  using std::abs, std::acos, std::cos, std::ldexp;
   // Within a few percent of the root: M. Abramowitz, I. A. Stegun (1964), 22.16.6.
   const Real pi = acos(Real(-1));
   Real x = cos(pi * (4 * i + 3) / (4 * s + 2));

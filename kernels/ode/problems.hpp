@@ -98,8 +98,8 @@ template <RealType Real>
     const Wide two_pi = 2 * acos(Wide(-1));
     Wide mean = n * guarded(t);
     mean -= two_pi * floor(mean / two_pi + Wide(1) / 2);
-    // Kepler's equation E - e sin E = M by Newton, from E = pi sgn M where it converges for every e < 1:
-    // J. M. A. Danby, T. M. Burkardt, Celest. Mech. 31 (1983) 95.
+    // Kepler's equation E - e sin E = M: the left side is convex on (0, pi), so Newton's iteration falls
+    // monotonically from pi to the root; odd in M.
     Wide anomaly = mean > 0 ? Wide(two_pi / 2) : mean < 0 ? Wide(-two_pi / 2) : Wide(0);
     const Wide settled = ldexp(Wide(1), -std::numeric_limits<Wide>::digits / 2 - 8);
     for (bool last = false; !last;) {

@@ -96,13 +96,13 @@ TEST(JacobiElliptic, HasItsClosedValues) {
   const Real quarter = complete_elliptic_k(k);
   const auto f = jacobi_elliptic<Real>(quarter / 2, k);
   const Real tolerance = 256 * std::numeric_limits<Real>::epsilon();
-  // M. Abramowitz, I. A. Stegun (1964), 16.5.2, with k' = 0.6.
+  // M. Abramowitz, I. A. Stegun (1964), 16.5, with k' = 0.6.
   const Real complement = real<Real>("0.6");
   EXPECT_LT(abs(f.sn - 1 / sqrt(1 + complement)), tolerance);
   EXPECT_LT(abs(f.cn - sqrt(complement / (1 + complement))), tolerance);
   EXPECT_LT(abs(f.dn - sqrt(complement)), tolerance);
   EXPECT_LT(abs(jacobi_elliptic<Real>(Real(1), Real(0)).sn - sin(Real(1))), tolerance);
-  // K(1/sqrt 2) = gamma(1/4)^2 / (4 sqrt pi): 17.3.10 there, in the lemniscatic case.
+  // K(1/sqrt 2) = gamma(1/4)^2 / (4 sqrt pi), the lemniscatic case.
   const Real pi = acos(Real(-1));
   const Real gamma = tgamma(Real(Real(1) / 4));
   EXPECT_LT(abs(complete_elliptic_k(Real(1 / sqrt(Real(2)))) - gamma * gamma / (4 * sqrt(pi))), tolerance);
