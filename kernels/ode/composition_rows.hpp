@@ -1,0 +1,31 @@
+// The published composition methods: one row of cited coefficients each.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace ulpgate::ode {
+
+enum class CompositionKind {
+  symplectic_euler,     // one kick, one drift, no parameters
+  kick_first,           // palindrome of kick-drift-kick steps; parameters: weights, outermost to central
+  drift_first,          // the same of drift-kick-drift steps
+  position_extended_fr  // drift xi, kick (1-2 lambda)/2, drift chi, kick lambda, drift 1-2(chi+xi), and back
+};
+
+// Published digits are where the solver starts, not what is used.
+struct CompositionRow {
+  std::string_view name;
+  int order;
+  int evaluations_per_step;
+  CompositionKind kind;
+  std::span<const std::string_view> published;
+  std::string_view citation;
+};
+
+[[nodiscard]] std::span<const CompositionRow> composition_rows();
+
+// nullptr where no composition has this name.
+[[nodiscard]] const CompositionRow* find_composition(std::string_view name);
+
+}  // namespace ulpgate::ode
