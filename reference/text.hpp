@@ -22,11 +22,15 @@ namespace ulpgate {
 
 template <RealType Real>
 [[nodiscard]] Real parse_real(std::string_view text) {
-  MpfrValue value(std::numeric_limits<Real>::digits + 128);
-  if (!parse_into(value, text, float_format<Real>())) {
-    throw std::invalid_argument("not a number: '" + std::string(text) + "'");
+  if constexpr (is_instrumented_real<Real>) {
+    return Real(parse_real<typename Real::Value>(text));
+  } else {
+    MpfrValue value(std::numeric_limits<Real>::digits + 128);
+    if (!parse_into(value, text, float_format<Real>())) {
+      throw std::invalid_argument("not a number: '" + std::string(text) + "'");
+    }
+    return from_mpfr<Real>(value);
   }
-  return from_mpfr<Real>(value);
 }
 
 template <RealType Real>

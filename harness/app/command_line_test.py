@@ -111,6 +111,11 @@ def test_complex_tan_in_double_is_judged_right():
         assert max(point["ulp_error"]) < 3, point
 
 
+# A build may leave it out: the sanitised one does.
+HAS_CPP_BIN_FLOAT = "cpp_bin_float62" in run("list", "types")[1]
+
+
+@pytest.mark.skipif(not HAS_CPP_BIN_FLOAT, reason="cpp_bin_float62 is not built")
 def test_lgamma_of_cpp_bin_float_is_wrong_between_1_and_3():
     code, out, _ = run("at", "lgamma", "cpp_bin_float62", "2.84", "--json")
     assert code == 0
@@ -135,7 +140,7 @@ def test_no_special_argument_crashes(tmp_path):
 
 SMALL = [
     "--types",
-    "float,double,cpp_bin_float62",
+    "float,double," + ("cpp_bin_float62" if HAS_CPP_BIN_FLOAT else "mpfr62"),
     "--functions",
     "sin,pow,tgamma,ctan,laguerre",
 ]

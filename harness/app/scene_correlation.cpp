@@ -115,7 +115,9 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
   for (const auto& token : types) {
     if (token == o.reference || interrupted()) continue;
     const Truth t = truth_of(signal_of(token, dem::Level::own), reference, record_s);
-    const std::string limit = t.t_s < step.t_s ? "rounding" : "time-stepping";
+    const std::string limit = t.to_the_end       ? "the end of the run"
+                              : t.t_s < step.t_s ? "rounding"
+                                                 : "time-stepping";
     fmt::print("{:<18} {:>10} s  limited by {}\n", token, shown(t), limit);
     add(token, o.reference, t, limit);
   }

@@ -121,7 +121,7 @@ std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const 
                                 0,
                                 {}});
           }
-        } else if (it->second < 0.5 * limit) {
+        } else if (missing == MissingRecords::fail && it->second < 0.5 * limit) {
           findings.push_back({FindingKind::could_lower,
                               token,
                               row,

@@ -47,8 +47,10 @@ TEST(Gate, FindsEveryKind) {
   EXPECT_TRUE(judge_records({record("exp", 0.5)}, budgets, MissingRecords::ignore).empty());
   EXPECT_EQ(kinds(judge_records({record("exp", 0.5), record("cos", 0.5)}, budgets, MissingRecords::ignore)),
             Kinds{FindingKind::missing_budget});
-  EXPECT_EQ(kinds(judge_records({record("exp", 0.1)}, budgets, MissingRecords::ignore)),
+  EXPECT_EQ(kinds(judge_records({record("exp", 0.1), record("sin", 0.55)}, budgets, MissingRecords::fail)),
             Kinds{FindingKind::could_lower});
+  EXPECT_TRUE(judge_records({record("exp", 0.1)}, budgets, MissingRecords::ignore).empty())
+      << "a smaller run says nothing about budgets that could fall";
   RowRecord torn = record("exp", 0.5);
   torn.planned = 11;
   EXPECT_EQ(kinds(judge_records({torn}, budgets, MissingRecords::ignore)), Kinds{FindingKind::incomplete});

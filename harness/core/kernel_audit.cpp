@@ -3,6 +3,7 @@
 
 #include "harness/core/kernel_states.hpp"
 #include "kernels/dem/kernel_table_impl.hpp"
+#include "kernels/scenes/assemble.hpp"
 
 namespace ulpgate {
 
@@ -34,6 +35,13 @@ std::vector<HiddenDouble> audit_kernels(const dem::KernelTable<AuditedReal>& tab
       found.push_back({std::string(kernel.name), literal});
   }
   return found;
+}
+
+std::vector<double> audit_scene(const scenes::Scene& scene) {
+  (void)AuditedReal::take_found();
+  (void)scenes::assemble<AuditedReal>(scene);
+  const auto found = AuditedReal::take_found();
+  return {found.begin(), found.end()};
 }
 
 }  // namespace ulpgate

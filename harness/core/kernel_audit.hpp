@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/dem/kernel_table.hpp"
+#include "kernels/scenes/scene.hpp"
 #include "reference/audited_real.hpp"
 
 namespace ulpgate {
@@ -18,6 +19,8 @@ struct HiddenDouble {
 // Evaluates every kernel of the table in states of every stratum, in a type that watches its constructors.
 [[nodiscard]] std::vector<HiddenDouble> audit_kernels(const dem::KernelTable<AuditedReal>& table,
                                                       std::uint64_t states_per_stratum);
+// The doubles that become constants of the scene's start state.
+[[nodiscard]] std::vector<double> audit_scene(const scenes::Scene& scene);
 // The table of the kernels as they are.
 [[nodiscard]] const dem::KernelTable<AuditedReal>& audited_kernel_table();
 

@@ -130,12 +130,12 @@ class Assembler {
     out_.bodies.push_back(b);
   }
 
-  // The mass as YADE has it: 4/3 pi r^3 rho with every operation in double, whatever the Real (see
+  // The mass as YADE has it: 4/3 pi is a product of doubles, off by 1.1e-16, and the rest is in Real (see
   // pendulum3.toml).
   Real contaminated_mass(const Real& radius, int material) const {
-    const auto r = static_cast<double>(radius);
-    const auto rho = static_cast<double>(out_.materials[static_cast<std::size_t>(material)].density);
-    return Real(dem::sphere_mass<double>(r, rho));
+    const double factor = (4. / 3) * boost::math::constants::pi<double>();
+    const Real volume = Real(factor) * radius * radius * radius;
+    return volume * out_.materials[static_cast<std::size_t>(material)].density;
   }
 
   void add_sphere(const SphereSpec& s) {

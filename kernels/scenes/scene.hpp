@@ -20,7 +20,7 @@ using Triple = std::array<Expression, 3>;
 enum class ContactLaw { frictional, viscoelastic, hertz_mindlin, cohesive };
 // Which bodies may touch: all, or only those that a bond joins.
 enum class ContactsBetween { all, bonded };
-// full: every constant in the precision of the run; yade: masses of spheres computed in double and widened,
+// full: every constant in the precision of the run; yade: 4/3 pi of the masses of spheres computed in double,
 // the contamination described in the scene `pendulum3`.
 enum class MassRule { full, yade };
 
