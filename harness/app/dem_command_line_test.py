@@ -5,6 +5,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
@@ -150,6 +151,14 @@ def test_scene_writes_what_the_report_reads(tmp_path):
     vtk = (tmp_path / "vtk/collision_double_0.vtk").read_text()
     assert vtk.startswith("# vtk DataFile Version 3.0") and "POINTS 2 double" in vtk
     assert json.loads((tmp_path / "context.json").read_text())["complete"] is True
+    report = tmp_path / "report"
+    done = subprocess.run(
+        [sys.executable, ROOT / "reports/report.py", tmp_path, "--out", report],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert (report / "figures/divergence_collision.pdf").exists()
 
 
 def test_the_ladder_names_the_double_mass():

@@ -102,7 +102,11 @@ Written run_one(const std::string& token, const SceneJob& job, const SceneOption
       write_picture(o, out, job, token, *engine);
     make_directory(out / "series");
     if (o.record) write_file(out / "series" / (stem + ".csv"), series.csv());
-    if (o.compare) write_file(out / "series" / ("divergence_" + stem + ".csv"), divergence_csv(divergence));
+    if (o.compare) {
+      write_file(out / "series" / ("divergence_" + stem + ".csv"), divergence_csv(divergence));
+      make_directory(out / "contacts");
+      write_file(out / "contacts" / (stem + ".csv"), contact_differences_csv(divergence));
+    }
   }
   Json left_out = Json::array();
   for (const auto& part : engine->explain().left_out)
@@ -138,8 +142,8 @@ Written run_one(const std::string& token, const SceneJob& job, const SceneOption
                  d.position_error_m, d.position_error_ulp, d.velocity_error_m_per_s, d.velocity_error_ulp,
                  d.only_tested.size() + d.only_reference.size() == 0
                      ? ""
-                     : fmt::format(", contacts only here {}, only in RealHP<4> {}", d.only_tested.size(),
-                                   d.only_reference.size()));
+                     : fmt::format(", contacts only here{}, only in RealHP<4>{}", pair_names(d.only_tested),
+                                   pair_names(d.only_reference)));
     }
   }
   return {j, complete};

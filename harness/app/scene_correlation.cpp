@@ -106,8 +106,8 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
                     {"plan", job.plan}};
     text += j.dump() + "\n";
     if (out.empty()) return;
-    make_directory(out / "series");
-    write_file(out / "series" / fmt::format("correlation_{}_{}_{}.csv", job.loaded.scene.name, type, against),
+    make_directory(out / "correlation");
+    write_file(out / "correlation" / fmt::format("{}_{}_{}.csv", job.loaded.scene.name, type, against),
                csv(t, record_s));
   };
   add(o.reference, "RealHP4", digits, "rounding");

@@ -146,17 +146,32 @@ std::string divergence_csv(const std::vector<Divergence>& rows) {
       "step,time_s,max_position_error_m,max_position_ulp,max_velocity_error_m_per_s,max_velocity_ulp,energy_"
       "error_J,"
       "contacts_only_here,contacts_only_in_reference\n";
-  const auto pairs = [](const std::vector<dem::BodyPair>& list) {
-    std::string names;
-    for (const auto& p : list) names += fmt::format("{}{}-{}", names.empty() ? "" : " ", p.first, p.second);
-    return names;
-  };
   for (const auto& d : rows) {
     text += fmt::format("{},{},{},{},{},{},{},{},{}\n", d.step, d.time_s, d.position_error_m,
                         d.position_error_ulp, d.velocity_error_m_per_s, d.velocity_error_ulp,
-                        d.energy_error_j, pairs(d.only_tested), pairs(d.only_reference));
+                        d.energy_error_j, d.only_tested.size(), d.only_reference.size());
   }
   return text;
+}
+
+std::string contact_differences_csv(const std::vector<Divergence>& rows) {
+  std::string text = "step,only_in,first_body,second_body\n";
+  for (const auto& d : rows) {
+    for (const auto& p : d.only_tested) text += fmt::format("{},tested,{},{}\n", d.step, p.first, p.second);
+    for (const auto& p : d.only_reference)
+      text += fmt::format("{},reference,{},{}\n", d.step, p.first, p.second);
+  }
+  return text;
+}
+
+std::string pair_names(const std::vector<dem::BodyPair>& pairs) {
+  constexpr std::size_t most = 5;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(most, pairs.size()); ++i)
+    names += fmt::format(" {}-{}", pairs[i].first, pairs[i].second);
+  return pairs.empty()         ? " none"
+         : pairs.size() > most ? fmt::format("{} and {} more", names, pairs.size() - most)
+                               : names;
 }
 
 Json energy_json(const dem::DemEngine& engine) {

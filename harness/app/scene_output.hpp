@@ -37,6 +37,10 @@ class Series {
 // Legacy VTK, ASCII: spheres as points with radius, speed and kinetic energy, facets as triangles.
 [[nodiscard]] std::string vtk_text(const dem::DemEngine& engine, const std::string& title);
 [[nodiscard]] std::string divergence_csv(const std::vector<Divergence>& rows);
+// step,only_in,first_body,second_body: every contact that only one of the two simulations has.
+[[nodiscard]] std::string contact_differences_csv(const std::vector<Divergence>& rows);
+// " 3-7 4-9", the first few.
+[[nodiscard]] std::string pair_names(const std::vector<dem::BodyPair>& pairs);
 // The energy account as an object, null where none is kept.
 [[nodiscard]] Json energy_json(const dem::DemEngine& engine);
 

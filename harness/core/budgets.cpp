@@ -191,7 +191,8 @@ std::string rises(const Budget& before, const Budget& after, bool same_plan) {
 void replace_strata(Budget& mine, const Budget& measured) {
   for (const auto& [stratum, limit] : measured.max_ulp) {
     mine.max_ulp[stratum] = limit;
-    std::erase_if(mine.mismatch, [&](const auto& entry) { return is_of_stratum(entry.first, stratum); });
+    std::erase_if(mine.mismatch,
+                  [&name = stratum](const auto& entry) { return is_of_stratum(entry.first, name); });
   }
   for (const auto& [stratum, limit] : measured.over_condition) mine.over_condition[stratum] = limit;
   mine.mismatch.insert(measured.mismatch.begin(), measured.mismatch.end());
