@@ -173,7 +173,7 @@ def test_the_ladder_names_the_double_mass():
 
 def test_an_interrupted_scene_says_so(tmp_path):
     process = subprocess.Popen(
-        [ULPGATE, "scene", "deposition", "--types", "mpfr150", "--out", tmp_path],
+        [ULPGATE, "scene", "collision", "--steps", "100000000000", "--out", tmp_path],
         stderr=subprocess.PIPE,
         text=True,
     )

@@ -72,7 +72,8 @@ Written run_one(const std::string& token, const SceneJob& job, const SceneOption
   series.add(*engine);
   const InterruptGuard guard;
   Progress progress(fmt::format("{} {}", job.loaded.scene.name, token));
-  const std::uint64_t most = std::max<std::uint64_t>(1, job.steps / 200);
+  // Steps between two looks at Ctrl-C.
+  const std::uint64_t most = std::clamp<std::uint64_t>(job.steps / 200, 1, 65536);
   auto next_compare = compare_at.begin();
   while (engine->iteration() < job.steps && !interrupted()) {
     const std::uint64_t now = engine->iteration();
