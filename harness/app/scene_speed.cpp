@@ -99,7 +99,10 @@ ExitCode measure_scene(const SceneJob& job, const SceneOptions& o, const std::ve
                        const std::filesystem::path& out) {
   std::vector<Json> rows;
   double of_double = 0;
+  // Ctrl-C ends the repeats in hand; what is done is still reported.
+  const InterruptGuard guard;
   for (const auto& token : types) {
+    if (interrupted()) break;
     rows.push_back(measure(token, job, o));
     if (token == "double") of_double = rows.back()["iterations_per_s"];
   }
@@ -115,6 +118,7 @@ ExitCode measure_scene(const SceneJob& job, const SceneOptions& o, const std::ve
         of_double > 0 ? fmt::format(", {:.2f} times slower than double", of_double / rate) : "");
   }
   if (!out.empty()) write_file(out / "timing.jsonl", text);
+  if (interrupted()) throw Failure(ExitCode::incomplete, "interrupted");
   return ExitCode::pass;
 }
 

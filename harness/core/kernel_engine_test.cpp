@@ -52,8 +52,7 @@ TEST(KernelJob, ACancellingOverlapIsIllConditionedNotUnstable) {
   EXPECT_TRUE(is_stable(s)) << s.max_error_over_condition;
 }
 
-// The overlap of a copied kernel by the difference of squares and a product off by 1e-12: wrong beyond any
-// condition.
+// A copy of a kernel whose first component of the normal is off by 1e-12: wrong beyond any condition.
 void wrong_normal(const double* in, double* out, std::uint8_t* threw, std::size_t count) {
   dem::kernel_table<double>()[static_cast<std::size_t>(KernelId::sphere_sphere)](in, out, threw, count);
   for (std::size_t i = 0; i < count; ++i) out[7 * i + 1] *= 1 + 1e-12;
