@@ -14,6 +14,7 @@ using Action = std::function<ExitCode()>;
 void add_list_command(CLI::App& app, Action& action);
 void add_math_command(CLI::App& app, Action& action);
 void add_kernels_command(CLI::App& app, Action& action);
+void add_integrators_command(CLI::App& app, Action& action);
 void add_scene_command(CLI::App& app, Action& action);
 void add_at_command(CLI::App& app, Action& action);
 void add_merge_command(CLI::App& app, Action& action);

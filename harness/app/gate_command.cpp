@@ -4,6 +4,7 @@
 #include "harness/app/budget_files.hpp"
 #include "harness/app/commands.hpp"
 #include "harness/app/records.hpp"
+#include "harness/app/scene_gate.hpp"
 
 namespace ulpgate::app {
 
@@ -25,6 +26,8 @@ std::string_view name_of(FindingKind kind) {
 
 std::string reproducer(const Finding& f) {
   if (f.at.empty()) return "";
+  // Of a scene it is a command already.
+  if (f.at.front().starts_with("ulpgate ")) return f.at.front();
   std::string text = fmt::format("ulpgate at {} {}", f.row.substr(0, f.row.find('.')), f.type);
   for (const auto& a : f.at) text += " " + a;
   return text;
@@ -71,7 +74,51 @@ ExitCode update(const GateOptions& o, const RecordSet& set) {
   return ExitCode::pass;
 }
 
+// Prints the findings and counts them.
+ExitCode verdict(const GateOptions& o, const std::vector<Finding>& findings, std::size_t records,
+                 bool complete) {
+  print(findings, o.json);
+  std::size_t failed = 0;
+  std::size_t incomplete = 0;
+  for (const auto& f : findings) {
+    failed += f.kind == FindingKind::regression ? 1U : 0U;
+    incomplete += f.kind != FindingKind::regression && f.kind != FindingKind::could_lower ? 1U : 0U;
+  }
+  if (!complete) {
+    fmt::print(stderr, "ulpgate: {}: the run is not complete\n", o.directory);
+    ++incomplete;
+  }
+  fmt::print(stderr, "ulpgate: gate: {} records, {} failed, {} incomplete or without budget\n", records,
+             failed, incomplete);
+  if (failed > 0) return ExitCode::regression;
+  return incomplete > 0 ? ExitCode::incomplete : ExitCode::pass;
+}
+
+ExitCode gate_scenes(const GateOptions& o) {
+  const auto measured = read_scene_measurements(o.directory);
+  if (measured.empty()) throw Failure(ExitCode::incomplete, fmt::format("{}: no records", o.directory));
+  SceneBudgets budgets = read_scene_budgets(o.budgets);
+  if (!o.update) {
+    if (budgets.empty())
+      throw Failure(ExitCode::incomplete, fmt::format("{}: no budgets; write them with --update", o.budgets));
+    return verdict(
+        o, judge_scenes(measured, budgets, o.only_measured ? MissingRecords::ignore : MissingRecords::fail),
+        measured.size(), true);
+  }
+  const auto raises = update_scene_budgets(budgets, measured, o.reason);
+  for (const auto& r : raises)
+    fmt::print("{} {} {}:{}\n", o.reason.empty() ? "WOULD LOOSEN" : "loosened", r.row, r.type, r.what);
+  if (!raises.empty() && o.reason.empty()) {
+    fmt::print(stderr, "ulpgate: nothing written: a budget is loosened only with --reason TEXT\n");
+    return ExitCode::regression;
+  }
+  write_scene_budgets(o.budgets, budgets);
+  fmt::print(stderr, "ulpgate: budgets of {} scenes written to {}\n", budgets.size(), o.budgets);
+  return ExitCode::pass;
+}
+
 ExitCode run_gate(const GateOptions& o) {
+  if (has_scene_records(o.directory)) return gate_scenes(o);
   const RecordSet set = read_records(o.directory);
   if (set.records.empty()) throw Failure(ExitCode::incomplete, fmt::format("{}: no records", o.directory));
   if (o.update) return update(o, set);
@@ -81,21 +128,7 @@ ExitCode run_gate(const GateOptions& o) {
   }
   const auto findings =
       judge_records(set.records, budgets, o.only_measured ? MissingRecords::ignore : MissingRecords::fail);
-  print(findings, o.json);
-  std::size_t failed = 0;
-  std::size_t incomplete = 0;
-  for (const auto& f : findings) {
-    failed += f.kind == FindingKind::regression ? 1U : 0U;
-    incomplete += f.kind != FindingKind::regression && f.kind != FindingKind::could_lower ? 1U : 0U;
-  }
-  if (!set.context.value("complete", false)) {
-    fmt::print(stderr, "ulpgate: {}: the run is not complete\n", o.directory);
-    ++incomplete;
-  }
-  fmt::print(stderr, "ulpgate: gate: {} records, {} failed, {} incomplete or without budget\n",
-             set.records.size(), failed, incomplete);
-  if (failed > 0) return ExitCode::regression;
-  return incomplete > 0 ? ExitCode::incomplete : ExitCode::pass;
+  return verdict(o, findings, set.records.size(), set.context.value("complete", false));
 }
 
 }  // namespace

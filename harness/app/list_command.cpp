@@ -4,6 +4,7 @@
 #include "harness/app/commands.hpp"
 #include "harness/app/context.hpp"
 #include "harness/app/scene_files.hpp"
+#include "kernels/ode/integrators.hpp"
 
 namespace ulpgate::app {
 
@@ -99,15 +100,34 @@ void list_scenes(bool json) {
   if (json) fmt::print("{}\n", rows.dump(2));
 }
 
+void list_integrators(bool json) {
+  Json rows = Json::array();
+  for (const auto& i : ode::integrators()) {
+    const std::string kind(ode::to_string(i.kind));
+    if (json) {
+      rows.push_back(
+          {{"integrator", i.name},
+           {"kind", kind},
+           {"order", i.order ? Json(*i.order) : Json(nullptr)},
+           {"evaluations_per_step", i.evaluations_per_step ? Json(*i.evaluations_per_step) : Json(nullptr)},
+           {"citation", i.citation}});
+    } else {
+      fmt::print("{:<20} {:<14} order {:<5} {}\n", i.name, kind, i.order ? std::to_string(*i.order) : "free",
+                 i.citation);
+    }
+  }
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
 }  // namespace
 
 void add_list_command(CLI::App& app, Action& action) {
-  auto* list = app.add_subcommand("list", "List functions, types, strata, kernels or scenes");
+  auto* list = app.add_subcommand("list", "List functions, types, strata, kernels, scenes or integrators");
   auto what = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  list->add_option("what", *what, "functions, types, strata, kernels or scenes")
+  list->add_option("what", *what, "functions, types, strata, kernels, scenes or integrators")
       ->required()
-      ->check(CLI::IsMember({"functions", "types", "strata", "kernels", "scenes"}));
+      ->check(CLI::IsMember({"functions", "types", "strata", "kernels", "scenes", "integrators"}));
   list->add_flag("--json", *json, "Print JSON");
   list->callback([=, &action] {
     action = [=] {
@@ -116,6 +136,7 @@ void add_list_command(CLI::App& app, Action& action) {
       if (*what == "strata") list_strata(*json);
       if (*what == "kernels") list_kernels(*json);
       if (*what == "scenes") list_scenes(*json);
+      if (*what == "integrators") list_integrators(*json);
       return ExitCode::pass;
     };
   });

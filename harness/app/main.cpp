@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_list_command(app, action);
   add_math_command(app, action);
   add_kernels_command(app, action);
+  add_integrators_command(app, action);
   add_scene_command(app, action);
   add_at_command(app, action);
   add_merge_command(app, action);

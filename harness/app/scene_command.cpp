@@ -8,10 +8,9 @@
 #include "harness/app/commands.hpp"
 #include "harness/app/context.hpp"
 #include "harness/app/files.hpp"
-#include "harness/app/interrupt.hpp"
-#include "harness/app/progress.hpp"
 #include "harness/app/scene_job.hpp"
 #include "harness/app/scene_output.hpp"
+#include "harness/app/scene_run.hpp"
 #include "harness/app/selection.hpp"
 #include "harness/core/kernel_audit.hpp"
 
@@ -47,107 +46,57 @@ struct Written {
   bool complete = true;
 };
 
-void write_picture(const SceneOptions& o, const std::filesystem::path& out, const SceneJob& job,
-                   const std::string& token, const dem::DemEngine& engine) {
-  const std::string stem = fmt::format("{}_{}_{}", job.loaded.scene.name, token, engine.iteration());
-  make_directory(out / "snapshots");
-  write_file(out / "snapshots" / (stem + ".csv"), snapshot_csv(engine));
-  if (o.vtk) {
-    make_directory(out / "vtk");
-    write_file(out / "vtk" / (stem + ".vtk"), vtk_text(engine, stem));
+void print_row(const Json& j, const dem::DemEngine& engine) {
+  fmt::print(
+      "{:<12} {:<16} steps {:>8}  t {:<10.6g} contacts {:>6}  kinetic {:.10g} J  mean y {:.10g} m  state "
+      "{}\n",
+      j["scene"].get<std::string>(), j["type"].get<std::string>(), engine.iteration(), engine.time_s(),
+      engine.contacts().size(), engine.kinetic_energy(), mean_position(engine)[1],
+      j["state_hash"].get<std::string>());
+}
+
+void print_energy(const SceneStatistics& s) {
+  const auto slope = [](const std::optional<double>& x) { return x ? fmt::format("{:.2f}", *x) : "-"; };
+  fmt::print(
+      "  energy {:.10g} J at the start, largest error {:.3e} J (slope {}), with half-step velocities {:.3e} "
+      "J "
+      "(slope {})\n",
+      s.energy_start, s.averaged.largest(), slope(s.averaged.slope()), s.raw.largest(), slope(s.raw.slope()));
+}
+
+void print_divergence(const std::vector<Divergence>& divergence) {
+  for (const auto& d : divergence) {
+    fmt::print("  step {:>8}: position {:.3e} m = {:.4g} ULP, velocity {:.3e} m/s = {:.4g} ULP{}\n", d.step,
+               d.position_error_m, d.position_error_ulp, d.velocity_error_m_per_s, d.velocity_error_ulp,
+               d.only_tested.size() + d.only_reference.size() == 0
+                   ? ""
+                   : fmt::format(", contacts only here{}, only in RealHP<4>{}", pair_names(d.only_tested),
+                                 pair_names(d.only_reference)));
   }
 }
 
 Written run_one(const std::string& token, const SceneJob& job, const SceneOptions& o,
                 const std::filesystem::path& out) {
-  auto engine = engine_of(token, dem::Level::own, job, o, o.all_parts);
-  std::unique_ptr<dem::DemEngine> reference;
-  if (o.compare) {
-    reference = engine_of(token, dem::Level::reference, job, o, o.all_parts);
-    reference->restore(engine->save(), o.own_constants ? dem::Constants::own : dem::Constants::from_text);
-  }
-  const auto compare_at = o.compare ? comparison_steps(job.steps) : std::vector<std::uint64_t>();
-  std::vector<Divergence> divergence;
-  Series series(*engine);
-  series.add(*engine);
-  const InterruptGuard guard;
-  Progress progress(fmt::format("{} {}", job.loaded.scene.name, token));
-  // Steps between two looks at Ctrl-C.
-  const std::uint64_t most = std::clamp<std::uint64_t>(job.steps / 200, 1, 65536);
-  auto next_compare = compare_at.begin();
-  while (engine->iteration() < job.steps && !interrupted()) {
-    const std::uint64_t now = engine->iteration();
-    if (!out.empty() && std::ranges::count(job.snapshot_steps, now) != 0)
-      write_picture(o, out, job, token, *engine);
-    std::uint64_t until = std::min(job.steps, now + most);
-    if (job.record_every != 0) until = std::min(until, (now / job.record_every + 1) * job.record_every);
-    if (next_compare != compare_at.end()) until = std::min(until, *next_compare);
-    for (const auto s : job.snapshot_steps) {
-      if (s > now) until = std::min(until, s);
-    }
-    if (now == 0) until = 1;
-    engine->step(until - now);
-    if (reference) reference->step(until - now);
-    if (until == 1 || until == job.steps || (job.record_every != 0 && until % job.record_every == 0))
-      series.add(*engine);
-    if (next_compare != compare_at.end() && until == *next_compare) {
-      divergence.push_back(compare_engines(*engine, *reference, type_or_fail(token).descriptor().format));
-      ++next_compare;
-    }
-    progress.update(static_cast<double>(until), static_cast<double>(job.steps));
-  }
-  const bool complete = engine->iteration() == job.steps;
-  const std::string stem = fmt::format("{}_{}", job.loaded.scene.name, token);
-  if (!out.empty()) {
-    if (std::ranges::count(job.snapshot_steps, engine->iteration()) != 0)
-      write_picture(o, out, job, token, *engine);
+  RunRequest request;
+  request.token = token;
+  request.stem = stem_of(job, token);
+  request.label = fmt::format("{} {}", job.loaded.scene.name, token);
+  request.compare = o.compare;
+  request.trajectory = o.record && job.loaded.scene.records("angles");
+  const FinishedRun run = run_to_end(request, job, o, out);
+  if (!out.empty() && o.compare) {
     make_directory(out / "series");
-    if (o.record) write_file(out / "series" / (stem + ".csv"), series.csv());
-    if (o.compare) {
-      write_file(out / "series" / ("divergence_" + stem + ".csv"), divergence_csv(divergence));
-      make_directory(out / "contacts");
-      write_file(out / "contacts" / (stem + ".csv"), contact_differences_csv(divergence));
-    }
+    write_file(out / "series" / ("divergence_" + request.stem + ".csv"), divergence_csv(run.divergence));
+    make_directory(out / "contacts");
+    write_file(out / "contacts" / (request.stem + ".csv"), contact_differences_csv(run.divergence));
   }
-  Json left_out = Json::array();
-  for (const auto& part : engine->explain().left_out)
-    left_out.push_back({{"part", part.part}, {"why", part.why}});
-  Json j;
-  j["scene"] = job.loaded.scene.name;
-  j["type"] = token;
-  j["integrator"] = "leapfrog";
-  j["dt"] = job.loaded.scene.dt;
-  j["variant"] = fmt::format("{}", fmt::join(o.overrides, ","));
-  j["steps"] = engine->iteration();
-  j["t_end"] = engine->time_s();
-  j["bodies"] = engine->bodies();
-  j["contacts"] = engine->contacts().size();
-  j["threads"] = o.threads;
-  j["parts_left_out"] = left_out;
-  j["kinetic_energy"] = engine->kinetic_energy();
-  j["mean_position"] = mean_position(*engine);
-  j["energy"] = energy_json(*engine);
-  j["energy_start"] = series.energy_start();
-  j["max_energy_error"] = series.max_energy_error();
-  j["state_hash"] = fmt::format("{:016x}", state_hash(*engine));
-  j["memory_bytes"] = engine->memory_bytes();
-  j["plan"] = job.plan;
+  const Json row = scene_row(run, token, job, o);
   if (!o.json) {
-    fmt::print(
-        "{:<12} {:<16} steps {:>8}  t {:<10.6g} contacts {:>6}  kinetic {:.10g} J  mean y {:.10g} m  state "
-        "{}\n",
-        job.loaded.scene.name, token, engine->iteration(), engine->time_s(), engine->contacts().size(),
-        engine->kinetic_energy(), mean_position(*engine)[1], j["state_hash"].get<std::string>());
-    for (const auto& d : divergence) {
-      fmt::print("  step {:>8}: position {:.3e} m = {:.4g} ULP, velocity {:.3e} m/s = {:.4g} ULP{}\n", d.step,
-                 d.position_error_m, d.position_error_ulp, d.velocity_error_m_per_s, d.velocity_error_ulp,
-                 d.only_tested.size() + d.only_reference.size() == 0
-                     ? ""
-                     : fmt::format(", contacts only here{}, only in RealHP<4>{}", pair_names(d.only_tested),
-                                   pair_names(d.only_reference)));
-    }
+    print_row(row, *run.engine);
+    if (!run.engine->energy_names().empty()) print_energy(run.statistics);
+    print_divergence(run.divergence);
   }
-  return {j, complete};
+  return {row, run.complete};
 }
 
 ExitCode run_scene(const SceneOptions& o) {
@@ -165,8 +114,11 @@ ExitCode run_scene(const SceneOptions& o) {
     for (const auto& token : types) code = std::max(code, ladder(token, job, o));
     return code;
   }
-  if (o.out.empty() && (o.record || o.vtk || !o.snapshots.empty()))
-    throw Failure(ExitCode::bad_input, "--record, --snapshots and --vtk need --out DIR");
+  if (o.out.empty() && (o.record || o.series || o.resume || o.vtk || !o.snapshots.empty()))
+    throw Failure(ExitCode::bad_input, "--record, --series, --resume, --snapshots and --vtk need --out DIR");
+  if (o.resume && o.compare)
+    throw Failure(ExitCode::bad_input, "--resume: a comparison keeps no checkpoints, run it again");
+  guard_checkpoints(out, o.resume, o.overwrite);
   if (o.correlate) {
     (void)type_or_fail(o.reference);
     return correlate_scene(job, o, types, out);
@@ -189,7 +141,10 @@ ExitCode run_scene(const SceneOptions& o) {
   }
   if (!complete)
     throw Failure(ExitCode::incomplete,
-                  o.out.empty() ? "interrupted" : "interrupted; what was done is in " + o.out);
+                  o.out.empty() ? "interrupted"
+                  : o.compare   ? "interrupted; what was done is in " + o.out
+                                : "interrupted; go on with --resume, what was done is in " + o.out);
+  remove_checkpoints(out);
   return ExitCode::pass;
 }
 
@@ -203,6 +158,8 @@ void add_scene_command(CLI::App& app, Action& action) {
   scene->add_option("--type,--types", o->types, "all or tokens, comma-separated")->capture_default_str();
   scene->add_option("--set,--variant", o->overrides,
                     "key=value: dt, damping, mass=yade, a constant of the scene ...");
+  scene->add_option("--integrator", o->integrator, "a splitting method of `ulpgate list integrators`")
+      ->capture_default_str();
   scene->add_option("--dt", o->dt, "time step, s");
   scene->add_option("--until", o->until, "end, s");
   scene->add_option("--steps", o->steps, "number of steps, instead of --until");
@@ -222,7 +179,15 @@ void add_scene_command(CLI::App& app, Action& action) {
       "how long each type stays true to the run in --reference, and whether rounding or the step limits it");
   scene->add_option("--reference", o->reference, "with --correlate: the type of the reference run")
       ->capture_default_str();
-  scene->add_flag("--record", o->record, "write series/<scene>_<type>.csv with the energy account");
+  scene->add_flag("--record", o->record,
+                  "write series/<scene>_<type>.csv with the energy account and, of a chain, "
+                  "trajectory/<scene>_<type>.csv at full precision");
+  scene->add_flag("--series", o->series, "write the series alone");
+  scene->add_flag("--resume", o->resume, "go on from the checkpoints in --out to the same bytes");
+  scene->add_flag("--overwrite", o->overwrite, "start again where --out holds checkpoints");
+  scene->add_option("--checkpoint-seconds", o->checkpoint_seconds, "time between checkpoints in --out")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   scene->add_option("--snapshots", o->snapshots, "times in s, comma-separated: write snapshots/*.csv");
   scene->add_flag("--vtk", o->vtk, "with --snapshots: write vtk/*.vtk for ParaView as well");
   scene->add_option("--repeats", o->repeats, "measure the speed: repeats of --steps from the start");

@@ -8,9 +8,9 @@
 #include "harness/app/context.hpp"
 #include "harness/app/files.hpp"
 #include "harness/app/interrupt.hpp"
-#include "harness/app/progress.hpp"
-#include "harness/app/scene_job.hpp"
+#include "harness/app/scene_run.hpp"
 #include "harness/core/correlation.hpp"
+#include "harness/core/random_words.hpp"
 #include "kernels/scenes/scene_reader.hpp"
 
 namespace ulpgate::app {
@@ -18,18 +18,6 @@ namespace ulpgate::app {
 namespace {
 
 constexpr CorrelationRule rule;
-
-std::vector<double> products(dem::DemEngine& engine, std::uint64_t steps, std::uint64_t every,
-                             const std::string& name) {
-  Progress progress(name);
-  std::vector<double> signal = {angle_product(engine)};
-  while (engine.iteration() + every <= steps && !interrupted()) {
-    engine.step(every);
-    signal.push_back(angle_product(engine));
-    progress.update(static_cast<double>(engine.iteration()), static_cast<double>(steps));
-  }
-  return signal;
-}
 
 struct Truth {
   std::vector<double> correlations;
@@ -57,6 +45,25 @@ std::string csv(const Truth& t, double record_s) {
   return text;
 }
 
+// The same scene with half the step, recorded at the same times.
+SceneJob halved(const SceneJob& job) {
+  SceneJob half = job;
+  const std::string half_dt = "(" + job.loaded.scene.dt + ")/2";
+  if (const auto error = scenes::apply_override(half.loaded.scene, "dt=" + half_dt))
+    throw Failure(ExitCode::bad_input, error->text());
+  half.steps *= 2;
+  half.record_every *= 2;
+  half.snapshot_steps.clear();
+  half.plan = fmt::format("{:016x}", fnv1a(job.plan_text + "half the step\n"));
+  return half;
+}
+
+std::string limit_of(const Truth& t, const Truth& digits, const Truth& step) {
+  if (t.to_the_end) return "the end of the run";
+  if (!digits.to_the_end && t.t_s >= digits.t_s) return "the reference";
+  return t.t_s < step.t_s ? "rounding" : "time-stepping";
+}
+
 }  // namespace
 
 ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::vector<std::string>& types,
@@ -64,25 +71,45 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
   if (job.record_every == 0)
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: --correlate needs run.record_every in the scene", o.name));
-  const InterruptGuard guard;
-  const auto signal_of = [&](const std::string& token, dem::Level level) {
-    return products(*engine_of(token, level, job, o, o.all_parts), job.steps, job.record_every, token);
+  if (!job.loaded.scene.records("angles"))
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: --correlate needs a chain of bodies whose angles are recorded: record = "
+                              "[\"angles\"]",
+                              o.name));
+  const auto stop_if_interrupted = [&] {
+    if (interrupted())
+      throw Failure(ExitCode::incomplete, out.empty() ? "interrupted" : "interrupted; go on with --resume");
   };
-  const auto reference_engine = engine_of(o.reference, dem::Level::own, job, o, o.all_parts);
-  const auto reference = products(*reference_engine, job.steps, job.record_every, o.reference);
-  const double record_s = reference_engine->time_s() /
-                          static_cast<double>(std::max<std::uint64_t>(1, reference_engine->iteration())) *
+  const InterruptGuard guard;
+  std::string scene_rows;
+  const auto add_scene_row = [&](const FinishedRun& run, const std::string& token) {
+    scene_rows += scene_row(run, token, job, o).dump() + "\n";
+  };
+  const auto run_of = [&](const std::string& token, dem::Level level, const SceneJob& what,
+                          const std::string& suffix) {
+    const bool plain = suffix.empty();
+    RunRequest request;
+    request.token = token;
+    request.level = level;
+    request.stem = stem_of(job, token) + suffix;
+    request.label = request.stem;
+    request.trajectory = o.record && plain && !out.empty();
+    FinishedRun run = run_to_end(request, what, o, out);
+    stop_if_interrupted();
+    return run;
+  };
+  const FinishedRun reference_run = run_of(o.reference, dem::Level::own, job, "");
+  const std::vector<double>& reference = reference_run.statistics.products;
+  const double record_s = reference_run.engine->time_s() /
+                          static_cast<double>(std::max<std::uint64_t>(1, reference_run.engine->iteration())) *
                           static_cast<double>(job.record_every);
 
   // The reference is as good as these: four times its digits, and half its step.
-  const Truth digits = truth_of(reference, signal_of(o.reference, dem::Level::reference), record_s);
-  SceneJob half = job;
-  const std::string half_dt = "(" + job.loaded.scene.dt + ")/2";
-  if (const auto error = scenes::apply_override(half.loaded.scene, "dt=" + half_dt))
-    throw Failure(ExitCode::bad_input, error->text());
-  const auto finer_engine = engine_of(o.reference, dem::Level::own, half, o, o.all_parts);
-  const Truth step = truth_of(
-      reference, products(*finer_engine, 2 * job.steps, 2 * job.record_every, "half the step"), record_s);
+  const Truth digits = truth_of(
+      reference, run_of(o.reference, dem::Level::reference, job, "_RealHP4").statistics.products, record_s);
+  const Truth step =
+      truth_of(reference, run_of(o.reference, dem::Level::own, halved(job), "_half_step").statistics.products,
+               record_s);
 
   fmt::print(
       "{}: t_s, the time for which angles correlate over {} with the {} run, chunks of {} records of {:g} "
@@ -98,6 +125,7 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
                     {"scene", job.loaded.scene.name},
                     {"type", type},
                     {"against", against},
+                    {"integrator", o.integrator},
                     {"dt", job.loaded.scene.dt},
                     {"variant", fmt::format("{}", fmt::join(o.overrides, ","))},
                     {"t_s", t.t_s},
@@ -110,25 +138,33 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
     write_file(out / "correlation" / fmt::format("{}_{}_{}.csv", job.loaded.scene.name, type, against),
                csv(t, record_s));
   };
-  add(o.reference, "RealHP4", digits, "rounding");
-  add(o.reference, "half_step", step, "time-stepping");
+  add(o.reference, "RealHP4", digits, digits.to_the_end ? "the end of the run" : "rounding");
+  add(o.reference, "half_step", step, step.to_the_end ? "the end of the run" : "time-stepping");
   for (const auto& token : types) {
-    if (token == o.reference || interrupted()) continue;
-    const Truth t = truth_of(signal_of(token, dem::Level::own), reference, record_s);
-    const std::string limit = t.to_the_end       ? "the end of the run"
-                              : t.t_s < step.t_s ? "rounding"
-                                                 : "time-stepping";
-    fmt::print("{:<18} {:>10} s  limited by {}\n", token, shown(t), limit);
+    if (token == o.reference) {
+      add_scene_row(reference_run, token);
+      continue;
+    }
+    const FinishedRun run = run_of(token, dem::Level::own, job, "");
+    add_scene_row(run, token);
+    const Truth t = truth_of(run.statistics.products, reference, record_s);
+    const std::string limit = limit_of(t, digits, step);
+    fmt::print("{:<18} {:>10} s  limited by {}{}\n", token, shown(t), limit,
+               run.engine->energy_names().empty()
+                   ? ""
+                   : fmt::format("; largest energy error {:.3e} J, with half-step velocities {:.3e} J",
+                                 run.statistics.averaged.largest(), run.statistics.raw.largest()));
     add(token, o.reference, t, limit);
   }
   if (!out.empty()) {
     write_file(out / "correlation.jsonl", text);
+    write_file(out / scene_records_file, scene_rows);
     const Json context =
-        make_scene_context(job.plan, job.plan_text, types, static_cast<unsigned>(o.threads), !interrupted());
+        make_scene_context(job.plan, job.plan_text, types, static_cast<unsigned>(o.threads), true);
     write_file(out / "context.json", context.dump(2) + "\n");
+    remove_checkpoints(out);
   }
   if (o.json) fmt::print("{}", text);
-  if (interrupted()) throw Failure(ExitCode::incomplete, "interrupted");
   return ExitCode::pass;
 }
 

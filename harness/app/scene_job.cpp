@@ -3,12 +3,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "harness/app/selection.hpp"
+#include "harness/core/order_engine.hpp"
 #include "harness/core/random_words.hpp"
+#include "kernels/ode/integrators.hpp"
 #include "kernels/scenes/expression.hpp"
 #include "kernels/scenes/scene_steps.hpp"
 
 namespace ulpgate::app {
+
+namespace {
+
+constexpr std::string_view leapfrog = "leapfrog";
+
+void check_integrator(const std::string& name) {
+  std::vector<std::string> splitting;
+  for (const auto& i : ode::integrators()) {
+    if (i.kind == ode::IntegratorKind::splitting) splitting.push_back(i.name);
+  }
+  if (std::ranges::find(splitting, name) == splitting.end())
+    unknown_name("integrator of scenes", name, splitting);
+}
+
+}  // namespace
 
 SceneJob make_job(const SceneOptions& o) {
   SceneJob job;
@@ -19,7 +38,7 @@ SceneJob make_job(const SceneOptions& o) {
   scenes::Scene& scene = job.loaded.scene;
   // A record of a run keeps the energy account unless the scene's author left it out on purpose for a
   // comparison.
-  if (o.record && !scene.records("energy")) {
+  if ((o.record || o.series) && !scene.records("energy")) {
     scene.record.emplace_back("energy");
     job.loaded.text += "\n# record energy";
   }
@@ -33,7 +52,9 @@ SceneJob make_job(const SceneOptions& o) {
       throw Failure(ExitCode::bad_input, fmt::format("--snapshots: {}", e.what()));
     }
   }
-  job.plan_text = fmt::format("ulpgate scene plan\nsteps {}\nscene {:016x}\n{}\n", job.steps,
+  check_integrator(o.integrator);
+  const std::string integrator = o.integrator == leapfrog ? "" : "integrator " + o.integrator + "\n";
+  job.plan_text = fmt::format("ulpgate scene plan\n{}steps {}\nscene {:016x}\n{}\n", integrator, job.steps,
                               fnv1a(job.loaded.text), job.loaded.text);
   job.plan = fmt::format("{:016x}", fnv1a(job.plan_text));
   return job;
@@ -41,7 +62,14 @@ SceneJob make_job(const SceneOptions& o) {
 
 std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const SceneJob& job,
                                           const SceneOptions& o, bool all_parts) {
-  return dem::make_engine(token, level, job.loaded.scene, {all_parts, o.threads});
+  auto engine = dem::make_engine(token, level, job.loaded.scene, {all_parts, o.threads});
+  if (o.integrator == leapfrog) return engine;
+  try {
+    engine->set_flow(find_order_engine(token)->flow(o.integrator));
+  } catch (const std::invalid_argument& e) {
+    throw Failure(ExitCode::bad_input, fmt::format("--integrator {}: {}", o.integrator, e.what()));
+  }
+  return engine;
 }
 
 }  // namespace ulpgate::app

@@ -17,6 +17,7 @@ struct SceneOptions {
   std::string name;
   std::string types = "double";
   std::vector<std::string> overrides;
+  std::string integrator = "leapfrog";
   std::string dt;
   std::string until;
   std::uint64_t steps = 0;
@@ -28,7 +29,11 @@ struct SceneOptions {
   bool ladder = false;
   bool correlate = false;
   std::string reference = "mpfr150";
-  bool record = false;
+  bool record = false;  // series, and trajectories of chains
+  bool series = false;
+  bool resume = false;
+  bool overwrite = false;
+  double checkpoint_seconds = 30;
   bool vtk = false;
   std::string snapshots;
   unsigned repeats = 0;

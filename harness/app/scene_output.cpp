@@ -65,30 +65,6 @@ std::uint64_t state_hash(const dem::DemEngine& engine) {
   return hash;
 }
 
-Series::Series(const dem::DemEngine& engine) : csv_("step,time_s,kinetic_J") {
-  for (const auto& name : engine.energy_names()) {
-    csv_ += "," + name;
-    has_account_ = has_account_ || name == "sum";
-  }
-  csv_ += ",mean_x_m,mean_y_m,mean_z_m\n";
-}
-
-void Series::add(const dem::DemEngine& engine) {
-  csv_ += fmt::format("{},{},{}", engine.iteration(), engine.time_s(), engine.kinetic_energy());
-  for (const auto& name : engine.energy_names()) csv_ += fmt::format(",{}", engine.energy(name));
-  const auto mean = mean_position(engine);
-  csv_ += fmt::format(",{},{},{}\n", mean[0], mean[1], mean[2]);
-  // The account belongs to the step before: there is none before the first step.
-  if (!has_account_ || engine.iteration() == 0) return;
-  const double sum = engine.energy("sum");
-  if (!has_start_) {
-    energy_start_ = sum;
-    has_start_ = true;
-  }
-  const double error = std::fabs(sum - energy_start_);
-  if (!(error <= max_energy_error_)) max_energy_error_ = error;
-}
-
 std::string snapshot_csv(const dem::DemEngine& engine) {
   std::string text = "body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s\n";
   for (std::size_t b = 0; b < engine.bodies(); ++b) {

@@ -10,25 +10,6 @@
 
 namespace ulpgate::app {
 
-// Rows of series/<scene>_<type>.csv: step, time, kinetic energy, the energy account, mean position of the
-// movable bodies.
-class Series {
- public:
-  explicit Series(const dem::DemEngine& engine);
-  void add(const dem::DemEngine& engine);
-  [[nodiscard]] const std::string& csv() const { return csv_; }
-  // Largest |sum - sum at the start| of the energy account; 0 where none is kept.
-  [[nodiscard]] double max_energy_error() const { return max_energy_error_; }
-  [[nodiscard]] double energy_start() const { return energy_start_; }
-
- private:
-  std::string csv_;
-  bool has_account_ = false;
-  bool has_start_ = false;
-  double energy_start_ = 0;
-  double max_energy_error_ = 0;
-};
-
 [[nodiscard]] std::array<double, 3> mean_position(const dem::DemEngine& engine);
 // Of every bit of positions, velocities and angular velocities.
 [[nodiscard]] std::uint64_t state_hash(const dem::DemEngine& engine);

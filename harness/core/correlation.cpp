@@ -1,7 +1,6 @@
 // Correlation of two recorded signals in chunks.
 #include "harness/core/correlation.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace ulpgate {
@@ -45,32 +44,6 @@ std::size_t true_records(std::span<const double> correlations, const Correlation
   std::size_t chunk = 0;
   while (chunk < correlations.size() && correlations[chunk] >= rule.limit) ++chunk;
   return chunk * rule.chunk;
-}
-
-double angle_product(const dem::DemEngine& engine) {
-  const auto at = [&](std::size_t body) {
-    std::array<double, 3> x{};
-    for (std::size_t c = 0; c < 3; ++c) x[c] = engine.approximate(dem::BodyQuantity::position, body, c);
-    return x;
-  };
-  double product = 1;
-  for (std::size_t i = 1; i + 1 < engine.bodies(); ++i) {
-    const auto before = at(i - 1);
-    const auto here = at(i);
-    const auto after = at(i + 1);
-    std::array<double, 3> a{};
-    std::array<double, 3> b{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      a[c] = before[c] - here[c];
-      b[c] = after[c] - here[c];
-    }
-    const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    const double cross =
-        std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-    // atan2 keeps its digits where the chain is straight, an arc cosine does not.
-    product *= std::atan2(cross, dot);
-  }
-  return product;
 }
 
 }  // namespace ulpgate

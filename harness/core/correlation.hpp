@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "kernels/dem/engine.hpp"
-
 namespace ulpgate {
 
 // Pearson's correlation coefficient of two series of one length; 1 where they are equal, though constant, and
@@ -25,10 +23,5 @@ struct CorrelationRule {
 // t_s: the start of the first chunk whose coefficient lies below the limit, in records; the length of all
 // chunks where none does.
 [[nodiscard]] std::size_t true_records(std::span<const double> correlations, const CorrelationRule& rule);
-
-// The product of the interior angles (rad) at the inner nodes of the chain of bodies 0, 1, 2 ...: the angle
-// at node i is that between the directions to its neighbours.  A chain of fewer than three bodies has the
-// product 1.
-[[nodiscard]] double angle_product(const dem::DemEngine& engine);
 
 }  // namespace ulpgate

@@ -30,6 +30,12 @@ enum class BodyQuantity { position, velocity, angular_velocity, orientation };
 // from the scene in its own precision.
 enum class Constants { from_text, own };
 
+// A part of a step: a kick or a drift over a fraction of it, as exact text.
+struct FlowText {
+  bool kick;
+  std::string fraction;
+};
+
 class DemEngine {
  public:
   DemEngine() = default;
@@ -41,6 +47,9 @@ class DemEngine {
   virtual void step(std::uint64_t count) = 0;
   // Any number gives the same bits.
   virtual void set_threads(int threads) = 0;
+  // A composition method instead of the leapfrog; the given velocities are then those of the start itself.
+  // Throws std::invalid_argument where the scene is more than unbreakable bonds and gravity.
+  virtual void set_flow(const std::vector<FlowText>& flow) = 0;
   [[nodiscard]] virtual std::uint64_t iteration() const = 0;
   // iteration * dt, rounded to double: for plots and messages.
   [[nodiscard]] virtual double time_s() const = 0;
@@ -75,6 +84,7 @@ class DemEngine {
   // Kinetic energy of all movable bodies from the half-step velocities, translation and rotation; always
   // there.
   [[nodiscard]] virtual double kinetic_energy() const = 0;
+  virtual void kinetic_energy_exact(mpfr_ptr out) const = 0;
   // Critical steps in seconds by name: "p_wave", "rayleigh" of spheres and materials, "stiffness" of the
   // contacts.
   [[nodiscard]] virtual double critical_step(std::string_view name) const = 0;

@@ -17,6 +17,11 @@ class TypedEngine final : public DemEngine {
   [[nodiscard]] std::string type_name() const override { return type_name_; }
   void step(std::uint64_t count) override { simulation_.step(count); }
   void set_threads(int threads) override { simulation_.set_threads(threads); }
+  void set_flow(const std::vector<FlowText>& flow) override {
+    std::vector<FlowPart<Real>> parts;
+    for (const auto& part : flow) parts.push_back({part.kick, parse_real<Real>(part.fraction)});
+    simulation_.set_flow(std::move(parts));
+  }
   [[nodiscard]] std::uint64_t iteration() const override { return s().iteration; }
   [[nodiscard]] double time_s() const override {
     return static_cast<double>(s().iteration) * static_cast<double>(s().dt);
@@ -75,16 +80,8 @@ class TypedEngine final : public DemEngine {
   }
   void energy_exact(std::string_view name, mpfr_ptr out) const override { to_mpfr(out, energy_value(name)); }
 
-  [[nodiscard]] double kinetic_energy() const override {
-    const Bodies<Real>& b = s().bodies;
-    Real sum{0};
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      if (b.fixed[i] != 0) continue;
-      sum += dem::kinetic_energy(b.mass[i], b.velocity[i]);
-      if (s().parts.rotation) sum += rotational_energy(b.inertia[i], b.angular_velocity[i]);
-    }
-    return static_cast<double>(sum);
-  }
+  [[nodiscard]] double kinetic_energy() const override { return static_cast<double>(kinetic_sum()); }
+  void kinetic_energy_exact(mpfr_ptr out) const override { to_mpfr(out, kinetic_sum()); }
 
   [[nodiscard]] double critical_step(std::string_view name) const override {
     if (name == "stiffness") return static_cast<double>(stiffness_limit());
@@ -140,6 +137,17 @@ class TypedEngine final : public DemEngine {
     if (name == "broken") return e.broken;
     if (name == "work") return e.work;
     return e.sum();
+  }
+
+  [[nodiscard]] Real kinetic_sum() const {
+    const Bodies<Real>& b = s().bodies;
+    Real sum{0};
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (b.fixed[i] != 0) continue;
+      sum += dem::kinetic_energy(b.mass[i], b.velocity[i]);
+      if (s().parts.rotation) sum += rotational_energy(b.inertia[i], b.angular_velocity[i]);
+    }
+    return sum;
   }
 
   // From the touching contacts; 0 where none limits the step.

@@ -29,10 +29,21 @@ class Simulation {
   // Takes `count` steps.
   void step(std::uint64_t count) {
     if (s_.parts.bonds_alone() && !s_.parts.moments && !collider_.started()) {
-      run_bonds_alone(s_, count);
+      run_bonds_alone(s_, count, flow_);
       return;
     }
     for (std::uint64_t i = 0; i < count; ++i) step_once();
+  }
+
+  // Kicks and drifts of a composition method instead of the leapfrog.  Throws std::invalid_argument where the
+  // scene is more than bonds and gravity.
+  void set_flow(std::vector<FlowPart<Real>> flow) {
+    if (!s_.parts.bonds_alone() || s_.parts.moments || !account_forgets(s_)) {
+      throw std::invalid_argument(
+          "only the leapfrog integrates this scene: others need unbreakable bonds alone, at rest or free, "
+          "without damping, shear, rotation and moments, and no --all-parts");
+    }
+    flow_ = std::move(flow);
   }
 
   void set_threads(int threads) {
@@ -142,6 +153,7 @@ class Simulation {
   SimulationState<Real> s_;
   Collider<Real> collider_;
   int threads_ = 1;
+  std::vector<FlowPart<Real>> flow_;
   std::vector<PairForce<Real>> slots_;
   std::vector<std::uint8_t> active_;
 };

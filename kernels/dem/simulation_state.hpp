@@ -167,11 +167,11 @@ void visit_state(Archive& a, SimulationState<Real>& s) {
   }
 }
 
-// Bytes of the arrays.
+// Bytes of the numbers in the arrays.
 template <RealType Real>
 [[nodiscard]] std::size_t memory_of(const SimulationState<Real>& s) {
   const auto bytes = [](const auto&... arrays) {
-    return (std::size_t{0} + ... + (arrays.capacity() * sizeof(arrays[0])));
+    return (std::size_t{0} + ... + (arrays.size() * sizeof(arrays[0])));
   };
   const Bodies<Real>& b = s.bodies;
   const Contacts<Real>& c = s.contacts;

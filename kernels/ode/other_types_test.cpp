@@ -2,7 +2,7 @@
 // be.
 #include <gtest/gtest.h>
 
-#include "kernels/ode/testing/measured_order.hpp"
+#include "kernels/ode/error_ladder.hpp"
 
 namespace ulpgate::ode::testing {
 namespace {

@@ -59,11 +59,26 @@ struct Assembly {
 
 namespace detail {
 
+// What a scene's constants are computed in: they are rounded to Real once.  In float arithmetic the
+// pendulum's start would be off by several roundings, and be true for 0.85 s instead of 1.10 s.
+template <RealType Real>
+using ConstantReal = std::conditional_t<std::same_as<Real, float>, double, Real>;
+
+template <RealType Real>
+class RoundedEvaluator {
+ public:
+  void define(const std::string& name, std::string_view text) { wide_.define(name, wide_(text)); }
+  [[nodiscard]] Real operator()(std::string_view text) const { return static_cast<Real>(wide_(text)); }
+
+ private:
+  Evaluator<ConstantReal<Real>> wide_;
+};
+
 template <RealType Real>
 class Assembler {
  public:
   explicit Assembler(const Scene& scene) : scene_(scene) {
-    for (const auto& [name, text] : scene.constants) evaluate_.define(name, evaluate_(text));
+    for (const auto& [name, text] : scene.constants) evaluate_.define(name, text);
   }
 
   [[nodiscard]] Assembly<Real> run() {
@@ -114,7 +129,9 @@ class Assembler {
   }
 
   Real sphere_mass(const Real& radius, int material) const {
-    return dem::sphere_mass(radius, out_.materials[static_cast<std::size_t>(material)].density);
+    using Wide = ConstantReal<Real>;
+    const Wide density = out_.materials[static_cast<std::size_t>(material)].density;
+    return static_cast<Real>(dem::sphere_mass<Wide>(radius, density));
   }
 
   void add_ball(const dem::Vec3<Real>& position, const Real& radius, int material, bool fixed) {
@@ -225,7 +242,7 @@ class Assembler {
   }
 
   const Scene& scene_;
-  Evaluator<Real> evaluate_;
+  RoundedEvaluator<Real> evaluate_;
   Assembly<Real> out_;
 };
 

@@ -1,4 +1,4 @@
-// Measures the order of an integrator: the errors at doubling numbers of steps, against an exact solution.
+// Errors of an integrator at doubling numbers of steps, against an exact solution.
 #pragma once
 
 #include <vector>
@@ -6,8 +6,9 @@
 #include "kernels/ode/integrate.hpp"
 #include "kernels/ode/problems.hpp"
 
-namespace ulpgate::ode::testing {
+namespace ulpgate::ode {
 
+// Largest |a_i - b_i|; NaN where there is one.
 template <RealType Real>
 [[nodiscard]] Real largest_difference(std::span<const Real> a, std::span<const Real> b) {
   using std::abs;
@@ -19,6 +20,7 @@ template <RealType Real>
   return largest;
 }
 
+// Largest component of the error at time t after `steps` equal steps.
 template <RealType Real>
 [[nodiscard]] Real error_at(std::string_view name, const SolvedProblem<Real>& solved, const Real& t,
                             long steps) {
@@ -48,4 +50,4 @@ template <RealType Real>
   return ladder;
 }
 
-}  // namespace ulpgate::ode::testing
+}  // namespace ulpgate::ode
