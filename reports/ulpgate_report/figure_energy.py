@@ -14,7 +14,9 @@ _CAPTION = (
 _KINETIC_ONLY = (
     "Scene %s: kinetic energy against time, a line for each type; no account was kept."
 )
-_NOT_ENERGY = ("step", "time_s", "mean_x_m", "mean_y_m", "mean_z_m")
+_NOT_ENERGY = ("step", "time_s", "mean_x_m", "mean_y_m", "mean_z_m", "angle_product")
+# Angles of a chain, and how far the sum is off: no parts of it.
+_NOT_ENERGY_ENDS = ("_rad", "energy_error_J")
 _DASHES = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
 _SHOWN_TYPE = "double"
 _MOST_POINTS = 4000
@@ -27,7 +29,8 @@ def parts(columns):
     found = {}
     for name, values in columns.items():
         short = name.removesuffix("_J")
-        if name not in _NOT_ENERGY and short != "sum":
+        other = name in _NOT_ENERGY or name.endswith(_NOT_ENERGY_ENDS)
+        if not other and short != "sum":
             found.setdefault(short, values)
     return found
 
@@ -42,9 +45,12 @@ def balance(columns):
             if len(account) < 2:
                 return None
             total = [sum(values) for values in zip(*account.values())]
+        # A step's energies are of its middle: before the first step there may be no account yet.
+        first = int(len(total) > 1 and not any(v[0] for v in account.values()))
         if not total:
             return None
-        return columns["time_s"], [float(abs(value - total[0])) for value in total]
+        errors = [float(abs(value - total[first])) for value in total[first:]]
+        return columns["time_s"][first:], errors
 
 
 def _thinned(times, values):
