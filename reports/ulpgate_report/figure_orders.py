@@ -50,7 +50,7 @@ def _draw_slope(axes, found, limits, place):
     high = min(right, x + (top - y) / found.order)
     style = {"color": "0.45", "linestyle": ":", "linewidth": 0.7, "zorder": 1}
     axes.plot([low, high], [height(low), height(high)], **style)
-    at = low + (place % 2) * _STAGGER * (top - bottom) / found.order
+    at = low + (0.2 + place % 2) * _STAGGER * (top - bottom) / found.order
     if height(left) > bottom:
         at = left + _FROM_LEFT * (right - left)
     axes.text(

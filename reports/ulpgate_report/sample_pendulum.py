@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from ulpgate_report.sample_records import PLAN, TYPES, share
+from ulpgate_report.time_step import seconds
 from ulpgate_report.sample_scenes import context, csv_text, scene_record
 
 SCENE = "pendulum3"
@@ -46,7 +47,7 @@ def duration(token, dt):
 
 def correlation_record(token, dt="1e-5", variant="mass=yade", **changes):
     """One line of correlation.jsonl."""
-    t_s, limit = duration(token, float(dt))
+    t_s, limit = duration(token, seconds(dt))
     found = {
         "what": "correlation",
         "scene": SCENE,
@@ -64,7 +65,9 @@ def correlation_record(token, dt="1e-5", variant="mass=yade", **changes):
 
 def reference_records(dt, variant):
     """The two lines that judge the reference itself."""
-    stepping = round(CHUNK_S * math.floor((1.0 - math.log2(float(dt)) / 2) / 0.05), 10)
+    stepping = round(
+        CHUNK_S * math.floor((1.0 - math.log2(seconds(dt)) / 2) / 0.05), 10
+    )
     own = {"against": "RealHP4", "limited_by": "rounding", "to_the_end": True}
     half = {"against": "half_step", "limited_by": "time-stepping", "t_s": stepping}
     return [
@@ -138,17 +141,17 @@ def snapshot(token, time):
 def record(token, dt, variant="mass=yade", **changes):
     """One line of scenes.jsonl with the fields of a chain."""
     rounding = START_J * 2.0 ** (12 - BITS[token])
-    averaged = rounding + START_J * 1e4 * float(dt) ** 2
+    averaged = rounding + START_J * 1e4 * seconds(dt) ** 2
     found = {
         "dt": dt,
         "variant": variant,
-        "steps": round(END_S / float(dt)),
+        "steps": round(END_S / seconds(dt)),
         "t_end": END_S,
         "bodies": 4,
         "contacts": 3,
         "energy_start": START_J,
         "max_energy_error": averaged,
-        "max_energy_error_raw": averaged + START_J * 30 * float(dt),
+        "max_energy_error_raw": averaged + START_J * 30 * seconds(dt),
         "energy_slope": 0.5 + 0.1 * share(token, dt),
         "energy_slope_raw": None,
     }
@@ -212,9 +215,9 @@ def write_run(directory, dt, tokens, end=END_S, every=1e-2, variant="mass=yade")
     _write_lines(directory / "scenes.jsonl", [record(t, dt, variant) for t in tokens])
     for token in tokens:
         path = directory / "series" / f"{SCENE}_{token}.csv"
-        path.write_text(series(token, float(dt), 0.0, end, every))
+        path.write_text(series(token, seconds(dt), 0.0, end, every))
         for time in (0, 0.1, 0.25, 2.5):
-            name = f"{SCENE}_{token}_{round(time / float(dt))}.csv"
+            name = f"{SCENE}_{token}_{round(time / seconds(dt))}.csv"
             (directory / "snapshots" / name).write_text(snapshot(token, time))
     return directory
 

@@ -8,6 +8,8 @@ _CONTEXT = "context.json"
 _RECORDS = "*.jsonl"
 # Text of every plan, which differs from run to run and is long.
 _NOT_MERGED = ("plan_text",)
+# Each run has one of its own, though two may be alike.
+_OF_EACH = ("plan",)
 
 
 def members(directory):
@@ -26,8 +28,9 @@ def _merged_context(contexts):
             continue
         values = {name: c[key] for name, c in contexts.items() if key in c}
         first = next(iter(values.values()))
-        alike = all(value == first for value in values.values())
-        merged[key] = first if alike and len(values) == len(contexts) else values
+        alike = len(values) == len(contexts) and key not in _OF_EACH
+        alike = alike and all(value == first for value in values.values())
+        merged[key] = first if alike else values
     types = {}
     for context in contexts.values():
         for entry in context.get("types", ()):
