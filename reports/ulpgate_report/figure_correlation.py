@@ -24,11 +24,16 @@ def _label(row):
     return f"{row['type']},\n{against}" if against else row["type"]
 
 
+def _edges(curve):
+    """The times at which chunks begin, and the end of the last one."""
+    times = curve["time_s"]
+    # Of a single chunk nobody tells the length; any is as good.
+    chunk = times[1] - times[0] if len(times) > 1 else 1.0
+    return numpy.append(times, times[-1] + chunk)
+
+
 def _draw_strip(axes, row, curve, colour, end):
-    times = numpy.array(curve["time_s"])
-    chunk = times[1] - times[0] if len(times) > 1 else 0.0
-    # Each chunk begins at its time: the last one needs an end of its own.
-    times = numpy.append(times, times[-1] + chunk)
+    times = _edges(curve)
     values = numpy.append(curve["correlation"], curve["correlation"][-1])
     if not row["to_the_end"]:
         axes.axvspan(row["t_s"], end, facecolor="0.93", edgecolor="none", zorder=0)
@@ -52,8 +57,7 @@ def _draw_strip(axes, row, curve, colour, end):
 
 
 def _draw(rows, tokens):
-    end = max(max(curve["time_s"]) for _, curve in rows)
-    end = max([end, *(row["t_s"] for row, _ in rows)])
+    end = max(max(_edges(curve)[-1], row["t_s"]) for row, curve in rows)
     height = _STRIP_INCHES * len(rows) + 0.5
     figure, strips = pyplot.subplots(
         len(rows), 1, figsize=(_WIDTH_INCHES, height), sharex=True, squeeze=False

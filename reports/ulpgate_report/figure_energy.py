@@ -9,7 +9,8 @@ from ulpgate_report import figure_style, type_order
 FAMILY = "energy"
 _CAPTION = (
     "Scene %s: parts of the energy account against time in %s (left); distance of their sum from its value at the start, "
-    "a line for each type (right, logarithmic; instants without any distance are not drawn)."
+    "a line for each type (right, logarithmic). Parts that stay 0, and instants "
+    "without any distance, are not drawn."
 )
 _KINETIC_ONLY = (
     "Scene %s: kinetic energy against time, a line for each type; no account was kept."
@@ -77,7 +78,8 @@ def _plot(axes, times, values, least=-math.inf, **style):
 def _legend(axes, columns):
     axes.legend(
         loc="lower left",
-        bbox_to_anchor=(-0.1, 1.0),
+        # Above the power of ten of the axis.
+        bbox_to_anchor=(-0.1, 1.05),
         ncol=columns,
         fontsize=6.5,
         columnspacing=0.8,
@@ -87,7 +89,8 @@ def _legend(axes, columns):
 
 
 def _draw_parts(axes, columns):
-    for index, (name, values) in enumerate(parts(columns).items()):
+    shown = {name: values for name, values in parts(columns).items() if any(values)}
+    for index, (name, values) in enumerate(shown.items()):
         _plot(
             axes,
             columns["time_s"],
@@ -100,6 +103,7 @@ def _draw_parts(axes, columns):
     if total is not None:
         style = {"color": "0.45", "linewidth": 1.6, "label": "sum", "zorder": 1}
         _plot(axes, columns["time_s"], total, **style)
+    axes.ticklabel_format(axis="y", useMathText=True)
     axes.set_xlabel("time (s)")
     axes.set_ylabel("energy (J)")
     _legend(axes, 3)

@@ -81,7 +81,7 @@ def notes(scenes, drawn):
     missing = [
         sentence
         for family, sentence in _MISSING.items()
-        if family not in scenes.drawn_elsewhere and not _is_drawn(family, drawn)
+        if family not in scenes.not_missed and not _is_drawn(family, drawn)
     ]
     return missing + _left_out(scenes)
 
@@ -94,9 +94,7 @@ def sections(scenes, drawn):
         table = make(scenes)
         if table.rows:
             blocks.append(page_views.table(page_views.table_view(table)))
-        if family and (
-            family not in scenes.drawn_elsewhere or _is_drawn(family, drawn)
-        ):
+        if family and (family not in scenes.not_missed or _is_drawn(family, drawn)):
             blocks += page_views.figures(drawn, family, title, _MISSING[family])
         if blocks:
             found.append(page_views.section(name, title, *blocks))

@@ -143,6 +143,35 @@ def test_correlation_marks_limit_and_duration():
     pyplot.close(figure)
 
 
+def test_the_least_that_can_be_drawn():
+    row = sample_pendulum.correlation_record("double", t_s=0, variant="")
+    row["dt"] = "h"
+    key = (row["scene"], row["type"], row["against"])
+    nodes = {"shape": ["sphere"] * 2, "x_m": [0.0] * 2, "y_m": [0.0, 1.0]}
+    nan = math.nan
+    series = chain_series.ChainSeries(
+        numpy.array([0.0, 1e-4]),
+        numpy.array([1.0, 1.0]),
+        numpy.array([1e-4]),
+        {"kinetic": numpy.array([nan])},
+        {chain_series.RAW: (numpy.array([1e-4]), numpy.array([0.0]))},
+    )
+    given = only(
+        correlations=(row,),
+        curves={key: {"time_s": [0.0], "correlation": [nan]}},
+        snapshots={("pendulum3", "double"): [(0, {**nodes, "time_s": [0.0] * 2})]},
+        series={("pendulum3", "double"): series},
+        records=(sample_pendulum.record("double", "1e-5", "damping=1"),),
+        orders=tuple(sample_pendulum.order_records(("double",), steps=1)),
+    )
+    names = []
+    for draw in kind_pendulum.FIGURES:
+        for name, _, figure in draw(given):
+            names.append(name)
+            assert figure_style.render(figure, name)["png"]
+    assert len(names) == len(kind_pendulum.FIGURES)
+
+
 def test_durations_take_the_longest_reference():
     rows = [
         sample_pendulum.correlation_record("double", against=a, t_s=t)

@@ -26,7 +26,7 @@ class Scenes:
     """Everything of a run of scenes; the tables of numbers are {column: list} by (scene, type).
 
     `snapshots` has a list of (step, columns) instead. `unknown` are files whose names tell no scene and type,
-    `drawn_elsewhere` families of figures that another kind of report has.
+    `not_missed` families of figures that another kind of report has or that the scenes are not run for.
     """
 
     records: tuple
@@ -35,7 +35,7 @@ class Scenes:
     divergences: dict
     snapshots: dict
     unknown: tuple = ()
-    drawn_elsewhere: frozenset = frozenset()
+    not_missed: frozenset = frozenset()
 
     @property
     def type_tokens(self):
@@ -106,9 +106,12 @@ def load(directory, timings, chains=()):
     series, divergences, snapshots, unknown = scene_files.find(directory, known)
     plain_series = _without(series, lambda key, path: chain_series.is_chain(path))
     plain_snapshots = _without(snapshots, lambda key, _: key[0] in chains)
-    elsewhere = [
+    only_chains = bool(chains) and {scene for scene, _ in known} <= set(chains)
+    not_missed = [
         ("energy", len(plain_series) < len(series)),
-        ("snapshots", len(plain_snapshots) < len(snapshots)),
+        ("snapshots", only_chains or len(plain_snapshots) < len(snapshots)),
+        ("divergence", only_chains),
+        ("benchmark", only_chains),
     ]
     return Scenes(
         records=tuple(records),
@@ -128,5 +131,5 @@ def load(directory, timings, chains=()):
             for key, found in plain_snapshots.items()
         },
         unknown=tuple(unknown),
-        drawn_elsewhere=frozenset(family for family, is_so in elsewhere if is_so),
+        not_missed=frozenset(family for family, is_so in not_missed if is_so),
     )

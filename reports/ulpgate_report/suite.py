@@ -60,7 +60,7 @@ def _renamed(scenes, name):
         columns(scenes.divergences),
         columns(scenes.snapshots),
         tuple(f"{name}/{file}" for file in scenes.unknown),
-        scenes.drawn_elsewhere,
+        scenes.not_missed,
     )
 
 
@@ -85,7 +85,7 @@ def _merged_scenes(runs):
         columns("divergences"),
         columns("snapshots"),
         rows("unknown"),
-        frozenset().union(*(scenes.drawn_elsewhere for scenes in found)),
+        frozenset().union(*(scenes.not_missed for scenes in found)),
     )
 
 

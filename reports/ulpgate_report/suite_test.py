@@ -42,7 +42,7 @@ def test_good_suite_loads(suite_directory):
         "pendulum3_dt_1e-5",
         "pendulum3_dt_1e-6",
     ]
-    assert run.scenes.drawn_elsewhere == {"energy", "snapshots"}
+    assert run.scenes.not_missed == {"energy", "snapshots", "divergence", "benchmark"}
     assert not run.scenes.series and not run.scenes.snapshots
     assert run.context["plan"]["dt_1e-5"] == sample_records.PLAN
     assert run.context["tool"]["version"] and run.notes == ()
@@ -62,7 +62,7 @@ def test_a_run_by_itself_is_read_alone(suite_directory):
 
 def test_plain_scenes_have_no_pendulum(tmp_path):
     run = suite.load(sample_scenes.write_sample(tmp_path, ("double",), bodies=9))
-    assert run.pendulum is None and not run.scenes.drawn_elsewhere
+    assert run.pendulum is None and not run.scenes.not_missed
 
 
 def test_the_most_precise_type_is_told_by_its_bits(suite_directory):
@@ -253,7 +253,7 @@ def test_todays_columns_keep_the_ordinary_energy_figure(suite_directory, capsys)
     assert (out / "figures" / "energy_pendulum3.svg").exists()
     said = capsys.readouterr().err
     assert "No series with parts of the energy and energy_error_J" in said
-    assert "no energy is drawn" not in said
+    assert "no energy is drawn" not in said and "no speed" not in said
 
 
 def test_a_chain_is_told_by_its_columns(tmp_path):
