@@ -16,8 +16,8 @@ FAMILY = "pendulum_t_s"
 _CAPTION = (
     "%s: how long the angles correlate with the reference run, t_s, against type. Filled: limited by rounding; hollow: by "
     "time-stepping. An arrow: true to the end of the run, so that t_s is longer. The reference stands at its correlation "
-    "with a run of four times its digits. Dotted, in the colour of its step: until then the reference agrees with its run of half the "
-    "step.%s"
+    "with a run of four times its digits. Dotted, in the colour of its step: until then the reference agrees with its run "
+    "of half the step.%s"
 )
 _PAPER = " Diamonds: published, %s (the end of the chunk, 0.05 s after its start)."
 

@@ -42,7 +42,8 @@ def order_table(pendulum):
     caption = (
         "Order of each integrator in theory and as measured on a problem with a known solution: the median over the four "
         "smallest steps whose error is clear of the rounding floor. The smallest error is also given in units of the "
-        "roundoff u = 2^-p with p significand bits; the floor is reached where the last step lowers the error by less than half the order."
+        "roundoff u = 2^-p with p significand bits; the floor is reached where the last step lowers the error by less "
+        "than half the order."
     )
     return Table("order_table", caption, columns, tuple(rows))
 

@@ -9,7 +9,7 @@ from ulpgate_report import numbers, type_order
 _FALLING = 0.5
 # A point is clear of the floor where its error is this many times the smallest.
 _CLEAR = 100
-# The order is the median of so many of the smallest steps clear of the floor: at larger ones it is not yet that of the limit.
+# The order is the median of so many of the smallest steps before the floor; at larger ones the limit is not yet reached.
 _POINTS = 4
 
 
@@ -17,7 +17,8 @@ _POINTS = 4
 class Convergence:
     """One integrator, type and problem: (dt, error) with the largest step first, finite errors alone.
 
-    `clear` are the points before the rounding floor. `measured` is None where fewer than two points are clear of the floor; `floor` where none was reached.
+    `clear` are the points before the rounding floor. `measured` is None where fewer than two points are clear of the
+    floor; `floor` where none was reached.
     """
 
     problem: str

@@ -1,4 +1,4 @@
-"""Makes a synthetic suite of the pendulum for the tests: deterministic, no simulation; `python3 -m ulpgate_report.sample_pendulum DIR`."""
+"""Makes a synthetic suite of the pendulum for the tests, without simulation; `python3 -m ulpgate_report.sample_pendulum DIR`."""
 import json
 import math
 import sys
