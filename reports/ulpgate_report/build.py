@@ -3,16 +3,18 @@ from ulpgate_report import (
     figure_style,
     kind_kernels,
     kind_math,
+    kind_pendulum,
     kind_scenes,
     output,
     page,
+    page_views,
     summary,
     table_csv,
     table_latex,
     table_markdown,
 )
 
-KINDS = (kind_math, kind_kernels, kind_scenes)
+KINDS = (kind_math, kind_kernels, kind_pendulum, kind_scenes)
 _FORMATS = {
     "csv": table_csv.render,
     "md": table_markdown.render,
@@ -79,24 +81,34 @@ def _write_figures(parts, out):
     return drawn
 
 
-def write_report(context, parts, out):
+def write_report(context, parts, out, left_out=()):
     """Write all tables, figures, the page and the summary to the folder `out`.
 
-    Returns a sentence for each thing that is left out for lack of a file.
+    Returns a sentence for each thing that is left out for lack of a file; `left_out` are sentences about the input
+    that the page shows too.
     """
     _write_tables(parts, out)
     data = dict(parts)
     output.write_text(
         out / "summary.json",
         summary.render(
-            context, data.get(kind_math), data.get(kind_kernels), data.get(kind_scenes)
+            context,
+            data.get(kind_math),
+            data.get(kind_kernels),
+            data.get(kind_scenes),
+            data.get(kind_pendulum),
         ),
     )
     drawn = _write_figures(parts, out)
     sections = [one for kind, d in parts for one in kind.sections(d, drawn)]
+    if left_out:
+        said = [page_views.note(sentence) for sentence in left_out]
+        sections.append(page_views.section("left-out", "Left out", *said))
     curves = kind_math.distributions(data[kind_math]) if kind_math in data else None
     headlines = [kind.headline(d) for kind, d in parts]
     output.write_text(
         out / "index.html", page.render(context, headlines, sections, curves)
     )
-    return kind_scenes.notes(data[kind_scenes], drawn) if kind_scenes in data else []
+    noting = [kind for kind in (kind_pendulum, kind_scenes) if kind in data]
+    found = [sentence for kind in noting for sentence in kind.notes(data[kind], drawn)]
+    return [*left_out, *found]

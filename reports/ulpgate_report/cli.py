@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-from ulpgate_report import build, records, table_text
+from ulpgate_report import build, suite, table_text
 from ulpgate_report.errors import OutputFailure, ReportError
 
 EXIT_OK = 0
@@ -14,7 +14,7 @@ def _parser():
     parser = argparse.ArgumentParser(
         prog="report",
         description="Tables, figures and a page from the records that `ulpgate` wrote to DIR: of math functions, of DEM kernels "
-        "and of scenes, whichever are there.",
+        "of scenes, of the pendulum and of integrators, whichever are there; DIR may also be a directory of such directories.",
         epilog="exit codes: 0 ok, 2 bad usage or invalid input, 3 nothing measured, 4 I/O failure",
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="the records")
@@ -47,7 +47,7 @@ def main(argv):
     """Run one report; returns the exit code."""
     arguments = _parser().parse_args(argv)
     try:
-        run = records.load(arguments.directory)
+        run = suite.load(arguments.directory)
         parts = build.parts_of(run)
         if not run.context.get("complete", True):
             print(
@@ -57,7 +57,8 @@ def main(argv):
         if arguments.to_terminal:
             _print_tables(parts)
         else:
-            for sentence in build.write_report(run.context, parts, arguments.out):
+            said = build.write_report(run.context, parts, arguments.out, run.notes)
+            for sentence in said:
                 print(f"report: {sentence}", file=sys.stderr)
     except ReportError as error:
         print(f"report: {error}", file=sys.stderr)

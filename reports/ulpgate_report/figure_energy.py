@@ -9,12 +9,15 @@ from ulpgate_report import figure_style, type_order
 FAMILY = "energy"
 _CAPTION = (
     "Scene %s: parts of the energy account against time in %s (left); distance of their sum from its value at the start, "
-    "a line for each type (right, logarithmic; instants without any distance are not drawn)."
+    "a line for each type (right, logarithmic). Parts that stay 0, and instants "
+    "without any distance, are not drawn."
 )
 _KINETIC_ONLY = (
     "Scene %s: kinetic energy against time, a line for each type; no account was kept."
 )
-_NOT_ENERGY = ("step", "time_s", "mean_x_m", "mean_y_m", "mean_z_m")
+_NOT_ENERGY = ("step", "time_s", "mean_x_m", "mean_y_m", "mean_z_m", "angle_product")
+# Angles of a chain, and how far the sum is off: no parts of it.
+_NOT_ENERGY_ENDS = ("_rad", "energy_error_J")
 _DASHES = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
 _SHOWN_TYPE = "double"
 _MOST_POINTS = 4000
@@ -27,7 +30,8 @@ def parts(columns):
     found = {}
     for name, values in columns.items():
         short = name.removesuffix("_J")
-        if name not in _NOT_ENERGY and short != "sum":
+        other = name in _NOT_ENERGY or name.endswith(_NOT_ENERGY_ENDS)
+        if not other and short != "sum":
             found.setdefault(short, values)
     return found
 
@@ -42,9 +46,12 @@ def balance(columns):
             if len(account) < 2:
                 return None
             total = [sum(values) for values in zip(*account.values())]
+        # A step's energies are of its middle: before the first step there may be no account yet.
+        first = int(len(total) > 1 and not any(v[0] for v in account.values()))
         if not total:
             return None
-        return columns["time_s"], [float(abs(value - total[0])) for value in total]
+        errors = [float(abs(value - total[first])) for value in total[first:]]
+        return columns["time_s"][first:], errors
 
 
 def _thinned(times, values):
@@ -71,7 +78,8 @@ def _plot(axes, times, values, least=-math.inf, **style):
 def _legend(axes, columns):
     axes.legend(
         loc="lower left",
-        bbox_to_anchor=(-0.1, 1.0),
+        # Above the power of ten of the axis.
+        bbox_to_anchor=(-0.1, 1.05),
         ncol=columns,
         fontsize=6.5,
         columnspacing=0.8,
@@ -81,7 +89,8 @@ def _legend(axes, columns):
 
 
 def _draw_parts(axes, columns):
-    for index, (name, values) in enumerate(parts(columns).items()):
+    shown = {name: values for name, values in parts(columns).items() if any(values)}
+    for index, (name, values) in enumerate(shown.items()):
         _plot(
             axes,
             columns["time_s"],
@@ -94,6 +103,7 @@ def _draw_parts(axes, columns):
     if total is not None:
         style = {"color": "0.45", "linewidth": 1.6, "label": "sum", "zorder": 1}
         _plot(axes, columns["time_s"], total, **style)
+    axes.ticklabel_format(axis="y", useMathText=True)
     axes.set_xlabel("time (s)")
     axes.set_ylabel("energy (J)")
     _legend(axes, 3)

@@ -54,6 +54,11 @@ def colour(index):
     return _COLOURS[index % len(_COLOURS)]
 
 
+def step_colour(index, count):
+    """Colour of one of `count` ordered things that are no types: dark to light, in order without colour vision too."""
+    return matplotlib.colormaps["viridis"](0.78 * index / max(1, count - 1))
+
+
 def marker(index):
     """Marker of the type at `index`; the colours repeat sooner than the markers."""
     return _MARKERS[index % len(_MARKERS)]

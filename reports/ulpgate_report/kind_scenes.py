@@ -72,12 +72,16 @@ def _left_out(scenes):
     ]
 
 
+def _is_drawn(family, drawn):
+    return any(name.startswith(f"{family}_") for name in drawn)
+
+
 def notes(scenes, drawn):
     """A sentence for each family of figures without a figure, and for each file whose name tells nothing."""
     missing = [
         sentence
         for family, sentence in _MISSING.items()
-        if not any(name.startswith(f"{family}_") for name in drawn)
+        if family not in scenes.not_missed and not _is_drawn(family, drawn)
     ]
     return missing + _left_out(scenes)
 
@@ -90,7 +94,7 @@ def sections(scenes, drawn):
         table = make(scenes)
         if table.rows:
             blocks.append(page_views.table(page_views.table_view(table)))
-        if family:
+        if family and (family not in scenes.not_missed or _is_drawn(family, drawn)):
             blocks += page_views.figures(drawn, family, title, _MISSING[family])
         if blocks:
             found.append(page_views.section(name, title, *blocks))

@@ -131,6 +131,9 @@ def test_scripts_parse(name):
     subprocess.run(["node", "--check", str(TEMPLATES / name)], check=True)
 
 
-@pytest.mark.parametrize("name", ["context", "math", "timing", "summary"])
+@pytest.mark.parametrize(
+    "name",
+    ["context", "math", "timing", "summary", "scenes", "correlation", "orders"],
+)
 def test_schemas_are_schemas(name):
     assert reading.validator(name).schema["title"]

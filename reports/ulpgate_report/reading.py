@@ -52,6 +52,17 @@ def read(path):
         raise InvalidInput(f"{path}: cannot read: {error.strerror}") from error
 
 
+def first_line(path):
+    """The first line of a file, without its end."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return file.readline().rstrip("\n")
+    except UnicodeDecodeError as error:
+        raise InvalidInput(f"{path.name}:1: not UTF-8 text") from error
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot read: {error.strerror}") from error
+
+
 def has_records(path):
     """Whether a .jsonl file is there and holds anything."""
     return path.exists() and bool(read(path).strip())

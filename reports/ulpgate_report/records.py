@@ -1,20 +1,25 @@
-"""Loads what a run directory holds: the context, and whichever of math, kernels and scenes were run."""
+"""Loads what a run directory holds: the context, and whichever of math, kernels, scenes and pendulums were run."""
 from dataclasses import dataclass
 from pathlib import Path
 
-from ulpgate_report import reading, scene_records
+from ulpgate_report import pendulum_records, reading, scene_records
 from ulpgate_report.errors import InvalidInput, NothingMeasured
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run as read; what was not run is empty. `time_ns` has the time of (what, type)."""
+    """One run as read; what was not run is empty. `time_ns` has the time of (what, type).
+
+    `notes` are sentences about what was left out.
+    """
 
     context: dict
     math: list
     time_ns: dict
     kernels: tuple = ()
     scenes: object = None
+    pendulum: object = None
+    notes: tuple = ()
 
 
 def _require(context, name, file):
@@ -88,8 +93,21 @@ def _load_timing(path):
     return times, scenes
 
 
-def load(directory):
-    """Read and validate all of DIR that a report is made from."""
+def _load_pendulum(name, directory, context, chains, scenes):
+    """The pendulum's part of a run, None where it has none."""
+    records = scenes.records if scenes else ()
+    if not (chains or pendulum_records.are_in(directory)):
+        return None
+    run = pendulum_records.load(name, directory, context, chains, records)
+    empty = not (run.records or run.correlations or run.orders or run.series)
+    return None if empty else pendulum_records.Pendulum((run,))
+
+
+def load(directory, name="", chains=None):
+    """Read and validate all of DIR that a report is made from.
+
+    Of a suite `name` is the directory's, and `chains` the scenes of the whole suite that are pendulums.
+    """
     directory = Path(directory)
     if not directory.is_dir():
         raise InvalidInput(f"{directory}: not a directory")
@@ -98,16 +116,21 @@ def load(directory):
     has_kernels = reading.has_records(kernels_path)
     times, scene_times = _load_timing(directory / "timing.jsonl")
     has_scenes = bool(scene_times) or scene_records.are_in(directory)
-    if not (has_math or has_kernels or has_scenes):
+    has_pendulum = pendulum_records.are_in(directory)
+    if not (has_math or has_kernels or has_scenes or has_pendulum):
         raise NothingMeasured(
-            f"{directory}: no record in math.jsonl, kernels.jsonl or scenes.jsonl"
+            f"{directory}: no record in math.jsonl, kernels.jsonl, scenes.jsonl, correlation.jsonl or orders.jsonl"
         )
     path = directory / "context.json"
     context = reading.parse(reading.read(path), path.name, "context")
+    if chains is None:
+        chains = pendulum_records.chains_in(directory)
+    scenes = scene_records.load(directory, scene_times, chains) if has_scenes else None
     return Run(
         context,
         _load_math(math_path, context) if has_math else [],
         times,
         tuple(_load_kernels(kernels_path, context)) if has_kernels else (),
-        scene_records.load(directory, scene_times) if has_scenes else None,
+        scenes,
+        _load_pendulum(name, directory, context, chains, scenes),
     )

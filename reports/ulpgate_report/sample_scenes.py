@@ -85,7 +85,7 @@ def timing_record(token, threads=1, scene="deposition"):
     }
 
 
-def _csv(header, rows):
+def csv_text(header, rows):
     lines = [header, *(",".join(map(repr_of, row)) for row in rows)]
     return "\n".join(lines) + "\n"
 
@@ -104,7 +104,7 @@ def series(token, every=50):
         kinetic, parts = account(step * DT, token)
         mean = (-1.5e-4, -0.5 * step / STEPS, 2.5e-4)
         rows.append((step, step * DT, kinetic, *parts, *mean))
-    return _csv(",".join(header), rows)
+    return csv_text(",".join(header), rows)
 
 
 def divergence(token):
@@ -124,7 +124,7 @@ def divergence(token):
             (step, step * DT, error, ulp, 10 * error, 10 * ulp, error, apart, apart)
         )
         step += max(1, step // 8)
-    return _csv(header, rows)
+    return csv_text(header, rows)
 
 
 def snapshot(step, bodies=200):
@@ -136,7 +136,7 @@ def snapshot(step, bodies=200):
         y = max(-0.5, y - 0.6 * step / STEPS)
         energy = 10.0 ** (-6 * share("k", body, step)) * (step > 0)
         rows.append((str(body + 1), "sphere", x, y, z, radius, energy, step * DT))
-    return _csv("body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s", rows)
+    return csv_text("body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s", rows)
 
 
 def write_sample(directory, tokens=tuple(BITS), bodies=200):

@@ -84,6 +84,20 @@ def test_balance(given, expected, why):
     assert (found and found[1]) == expected, why
 
 
+def test_the_instant_before_the_first_step_has_no_account():
+    series = columns(kinetic_J=(0, 1, 2), elastic=(0, 3, 2), sum=(0, 4, 4))
+    times, errors = figure_energy.balance(series)
+    assert times == [0.1, 0.2] and errors == [0.0, 0.0]
+
+
+def test_angles_and_errors_are_no_parts_of_the_energy():
+    series = columns(
+        **{"kinetic_J": (1, 2, 3), "elastic": (3, 2, 1), "angle_1_rad": (1, 2, 3)},
+        **{"angle_product": (1, 2, 3), "raw_energy_error_J": (1, 2, 3)},
+    )
+    assert list(figure_energy.parts(series)) == ["kinetic", "elastic"]
+
+
 def test_balance_of_nan_is_left_out_of_the_drawing():
     series = columns(kinetic_J=(1, "NaN", "Infinity"), elastic_J=(1, 1, "-Infinity"))
     found = figure_energy.balance(series)[1]

@@ -2,7 +2,13 @@
 import decimal
 from dataclasses import dataclass
 
-from ulpgate_report import csv_columns, reading, scene_files, type_order
+from ulpgate_report import (
+    chain_series,
+    csv_columns,
+    reading,
+    scene_files,
+    type_order,
+)
 from ulpgate_report.errors import InvalidInput
 
 # More panels than these would be too small to read.
@@ -11,7 +17,7 @@ _SERIES = ("step", "time_s", "kinetic_J")
 _DIVERGENCE = ("step", "time_s", "max_position_error_m", "max_position_ulp")
 # The energies stay exact: of a long type their sum is constant far below a double's last digit.
 _INSTANT = {"step": float, "time_s": float}
-_WORDS = {"body": str, "shape": str}
+WORDS = {"body": str, "shape": str}
 _SNAPSHOT = ("shape", "x_m", "y_m", "z_m", "radius_m", "kinetic_J", "time_s")
 
 
@@ -19,7 +25,8 @@ _SNAPSHOT = ("shape", "x_m", "y_m", "z_m", "radius_m", "kinetic_J", "time_s")
 class Scenes:
     """Everything of a run of scenes; the tables of numbers are {column: list} by (scene, type).
 
-    `snapshots` has a list of (step, columns) instead. `unknown` are files whose names tell no scene and type.
+    `snapshots` has a list of (step, columns) instead. `unknown` are files whose names tell no scene and type,
+    `not_missed` families of figures that another kind of report has or that the scenes are not run for.
     """
 
     records: tuple
@@ -28,6 +35,7 @@ class Scenes:
     divergences: dict
     snapshots: dict
     unknown: tuple = ()
+    not_missed: frozenset = frozenset()
 
     @property
     def type_tokens(self):
@@ -77,35 +85,51 @@ def _load_records(path):
     return sorted(found, key=lambda r: (scenes.index(r["scene"]), place[r["type"]]))
 
 
-def chosen(found):
-    """At most MOST_SNAPSHOTS of a list, the first, the last and evenly between."""
-    if len(found) <= MOST_SNAPSHOTS:
+def chosen(found, most=MOST_SNAPSHOTS):
+    """At most `most` of a list, the first, the last and evenly between."""
+    if len(found) <= most:
         return found
-    last = MOST_SNAPSHOTS - 1
-    return [found[i * (len(found) - 1) // last] for i in range(MOST_SNAPSHOTS)]
+    return [found[i * (len(found) - 1) // (most - 1)] for i in range(most)]
 
 
-def load(directory, timings):
-    """Read and validate; of the snapshots those that are drawn."""
+def _without(files, drop):
+    return {key: found for key, found in files.items() if not drop(key, found)}
+
+
+def load(directory, timings, chains=()):
+    """Read and validate; of the snapshots those that are drawn.
+
+    Snapshots of the scenes `chains`, and series with columns that only those have, are of the pendulum's report.
+    """
     records = _load_records(directory / "scenes.jsonl")
     known = [(record["scene"], record["type"]) for record in (*records, *timings)]
     series, divergences, snapshots, unknown = scene_files.find(directory, known)
+    plain_series = _without(series, lambda key, path: chain_series.is_chain(path))
+    plain_snapshots = _without(snapshots, lambda key, _: key[0] in chains)
+    only_chains = bool(chains) and {scene for scene, _ in known} <= set(chains)
+    not_missed = [
+        ("energy", len(plain_series) < len(series)),
+        ("snapshots", only_chains or len(plain_snapshots) < len(snapshots)),
+        ("divergence", only_chains),
+        ("benchmark", only_chains),
+    ]
     return Scenes(
         records=tuple(records),
         timings=tuple(timings),
         series={
             k: csv_columns.read(p, _SERIES, _INSTANT, decimal.Decimal)
-            for k, p in series.items()
+            for k, p in plain_series.items()
         },
         divergences={
             k: csv_columns.read(p, _DIVERGENCE) for k, p in divergences.items()
         },
         snapshots={
             key: [
-                (step, csv_columns.read(path, _SNAPSHOT, _WORDS))
+                (step, csv_columns.read(path, _SNAPSHOT, WORDS))
                 for step, path in chosen(found)
             ]
-            for key, found in snapshots.items()
+            for key, found in plain_snapshots.items()
         },
         unknown=tuple(unknown),
+        not_missed=frozenset(family for family, is_so in not_missed if is_so),
     )

@@ -1,7 +1,7 @@
 """The combined numbers for programs: summary.json, held to its own schema."""
 import json
 
-from ulpgate_report import combine, numbers, reading
+from ulpgate_report import combine, numbers, orders, reading
 
 
 def _cell(combined, row, token):
@@ -65,7 +65,19 @@ def _all_cells(combined, make):
     ]
 
 
-def build(context, combined=None, kernels=None, scenes=None):
+def _order(one):
+    return {
+        "problem": one.problem,
+        "integrator": one.integrator,
+        "type": one.type,
+        "order": one.order,
+        "measured_order": one.measured,
+        "smallest_error": one.smallest,
+        "floor": one.floor,
+    }
+
+
+def build(context, combined=None, kernels=None, scenes=None, pendulum=None):
     """The summary as an object that its schema accepts; what was not run is left out."""
     found = {"tool": context["tool"], "plan": context["plan"]}
     judged = combined or kernels
@@ -83,12 +95,15 @@ def build(context, combined=None, kernels=None, scenes=None):
         )
     if scenes:
         found["scenes"] = list(scenes.records)
+    if pendulum:
+        found["correlations"] = list(pendulum.correlations)
+        found["orders"] = [_order(c) for c in orders.convergences(pendulum.orders)]
     # A broken summary is a fault of this program, not of its input: let it abort.
     reading.validator("summary").validate(found)
     return found
 
 
-def render(context, combined=None, kernels=None, scenes=None):
-    """The whole file."""
-    found = build(context, combined, kernels, scenes)
+def render(context, *parts):
+    """The whole file; the parts are those of `build`."""
+    found = build(context, *parts)
     return json.dumps(found, indent=1, sort_keys=True) + "\n"
