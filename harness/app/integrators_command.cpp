@@ -60,16 +60,13 @@ void measure_order(const OrderEngine& engine, const ode::IntegratorInfo& info, c
                    const IntegratorOptions& o, Outcome& outcome) {
   const OrderLadder ladder = engine.ladder(info.name, problem, o.most_steps);
   for (const auto& rung : ladder.rungs) {
-    const Json j = {{"what", "order"},
-                    {"integrator", info.name},
-                    {"order", info.order ? Json(*info.order) : Json(nullptr)},
-                    {"type", engine.token()},
-                    {"problem", problem},
-                    {"t_end", ladder.t_end},
-                    {"dt", rung.dt},
-                    {"steps", rung.steps},
-                    {"error", rung.error},
-                    {"measured_order", number_or_null(rung.order)}};
+    // A method that chooses its order has none to be held against.
+    if (!info.order) break;
+    const Json j = {{"what", "order"},      {"integrator", info.name},
+                    {"order", *info.order}, {"type", engine.token()},
+                    {"problem", problem},   {"t_end", ladder.t_end},
+                    {"dt", rung.dt},        {"steps", rung.steps},
+                    {"error", rung.error},  {"measured_order", number_or_null(rung.order)}};
     outcome.text += j.dump() + "\n";
   }
   double least = HUGE_VAL;
@@ -144,7 +141,7 @@ ExitCode run_integrators(const IntegratorOptions& o) {
     const std::string plan =
         fmt::format("ulpgate integrators plan\nintegrators {}\nproblems {}\nmost_steps {}\ndrift {} {}\n",
                     o.integrators, o.problems, o.most_steps, o.drift_units, o.steps_per_unit);
-    write_file(out / "orders.jsonl", outcome.text);
+    write_file(out / (o.drift_units != 0 ? "drift.jsonl" : "orders.jsonl"), outcome.text);
     const Json context = make_scene_context(fmt::format("{:016x}", fnv1a(plan)), plan, types, 1, true);
     write_file(out / "context.json", context.dump(2) + "\n");
   }
@@ -176,7 +173,7 @@ void add_integrators_command(CLI::App& app, Action& action) {
                    "with --drift: steps in a unit of time; a power of two keeps the step exact")
       ->capture_default_str()
       ->check(CLI::Range(1L, 1L << 30));
-  verb->add_option("--out", o->out, "directory of orders.jsonl and context.json");
+  verb->add_option("--out", o->out, "directory of orders.jsonl (drift.jsonl) and context.json");
   verb->add_flag("--json", o->json, "print the records");
   verb->callback([=, &action] { action = [=] { return run_integrators(*o); }; });
 }

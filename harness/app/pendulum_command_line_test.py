@@ -31,6 +31,15 @@ def run(*words):
     return process.returncode, out, err
 
 
+def wait_for(path):
+    """A run that writes there has begun, and looks at signals."""
+    for _ in range(600):
+        if path.exists():
+            return
+        time.sleep(0.02)
+    raise AssertionError(f"{path} never came")
+
+
 def everything_in(directory):
     """Every file with its bytes, but for the context, which holds times and threads."""
     return {
@@ -121,7 +130,7 @@ def test_a_killed_run_goes_on_to_the_same_bytes(tmp_path):
 
 def test_checkpoints_are_guarded(tmp_path):
     process = start(*RECORDED, "--out", tmp_path)
-    time.sleep(0.5)
+    wait_for(tmp_path / "series")
     process.send_signal(signal.SIGINT)
     _, err = process.communicate()
     assert process.returncode == 3 and "--resume" in err
@@ -168,7 +177,7 @@ def test_correlation_resumes_and_its_gate_catches_a_worse_run(tmp_path):
     ]
     assert {r["against"] for r in rows} == {"RealHP4", "half_step", "float128"}
     process = start(*words, tmp_path / "cut")
-    time.sleep(0.8)
+    wait_for(tmp_path / "cut/series/pendulum3_float128_RealHP4.csv")
     process.send_signal(signal.SIGTERM)
     process.communicate()
     code, _, err = run(*words, tmp_path / "cut", "--resume")
@@ -237,9 +246,8 @@ def test_integrators_show_their_orders(tmp_path):
     )
     assert code == 0, out + err
     rows = [json.loads(x) for x in (tmp_path / "orders.jsonl").read_text().splitlines()]
-    names = {
-        i["integrator"] for i in json.loads(run("list", "integrators", "--json")[1])
-    }
+    listed = json.loads(run("list", "integrators", "--json")[1])
+    names = {i["integrator"] for i in listed if i["order"] is not None}
     assert {r["integrator"] for r in rows} == names
     assert {r["problem"] for r in rows if r["integrator"] == "yoshida8"} == {"kepler"}
     code, _, err = run("integrators", "--integrators", "yoshida7")
