@@ -189,9 +189,9 @@ exec "{ULPGATE}" "$@"
     subprocess.run(["scontrol", "requeue", f"{shards}_1"], check=True)
     state = lambda: query("squeue", "-h", "-o", "%T %r", "-j", f"{shards}_1")
     wait_until(lambda: "PENDING" in state(), "the requeue")
-    # Slurm would wait two minutes.
+    # Slurm would wait two minutes; in the second of the requeue the node still refuses the job.
     subprocess.run(
-        ["scontrol", "update", f"jobid={shards}_1", "starttime=now"], check=True
+        ["scontrol", "update", f"jobid={shards}_1", "starttime=now+3"], check=True
     )
     wait_until(lambda: not query("squeue", "-h", "-j", merge), "the merge")
     assert (out / "math.jsonl").read_bytes() == one
