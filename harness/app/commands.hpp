@@ -16,6 +16,7 @@ void add_math_command(CLI::App& app, Action& action);
 void add_kernels_command(CLI::App& app, Action& action);
 void add_scene_command(CLI::App& app, Action& action);
 void add_at_command(CLI::App& app, Action& action);
+void add_search_command(CLI::App& app, Action& action);
 void add_merge_command(CLI::App& app, Action& action);
 void add_gate_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);

@@ -56,6 +56,7 @@ ExitCode run_merge(const std::vector<std::string>& directories, const std::strin
   }
   context["shards"] = std::vector<std::string>(shards.begin(), shards.end());
   context["complete"] = complete;
+  context["finished"] = complete;
   make_directory(out);
   write_file(std::filesystem::path(out) / file, records_text(std::move(records)));
   write_file(std::filesystem::path(out) / "context.json", context.dump(2) + "\n");

@@ -1,7 +1,9 @@
 // Runner.
 #include "harness/app/runner.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <memory>
@@ -18,20 +20,60 @@ namespace ulpgate::app {
 
 namespace {
 
-// Merges what the units give; the first failure ends the run.
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Merges what the units give, keeps them and shows the progress; the first failure ends the run.
 class Collector {
  public:
-  Collector(const UnitJob& job, double total) : job_(job), total_(total), progress_(job.name) {
-    result_.rows.resize(job.rows);
+  Collector(const UnitJob& job, const ShardUnits& units, unsigned threads, Checkpoint& checkpoint)
+      : job_(job),
+        units_(units),
+        threads_(threads),
+        checkpoint_(checkpoint),
+        costs_(rows_with_points(job, units)),
+        progress_(job.name),
+        found_(units.size(), job.rows.size()) {
+    checkpoint_.restore(units_, found_);
+    for (std::size_t row = 0; row < found_.rows.size(); ++row)
+      if (found_.rows[row].points > 0) costs_.add(row, found_.rows[row].points, found_.rows[row].seconds);
+    before_s_ = costs_.spent_s();
   }
 
-  void add(const WorkUnit& unit, const std::vector<Summary>& summaries) {
+  // A few points of every function and type tell the time left before whole units have been measured.
+  void try_costs() {
+    if (!progress_.is_shown()) return;
+    const auto start = Clock::now();
+    for (std::size_t p = 0; p < units_.size() && !interrupted() && seconds_since(start) < 3; ++p) {
+      WorkUnit unit = units_[p];
+      if (found_.done[p] || costs_.is_known(unit.row)) continue;
+      unit.last = std::min(unit.last, unit.first + 4);
+      const auto begin = Clock::now();
+      static_cast<void>(job_.evaluate(unit));
+      costs_.add_trial(unit.row, unit.last - unit.first, seconds_since(begin));
+    }
+    start_ = Clock::now();
+  }
+
+  [[nodiscard]] bool is_done(std::size_t position) const { return before_[position]; }
+  void begin() { before_ = found_.done; }
+
+  void add(std::size_t position, const std::vector<Summary>& summaries, double seconds) {
     const std::lock_guard lock(mutex_);
-    auto& row = result_.rows[unit.row];
-    row.resize(summaries.size());
-    for (std::size_t part = 0; part < summaries.size(); ++part) row[part].merge(summaries[part]);
-    done_ += job_.cost(unit);
-    progress_.update(done_, total_);
+    const std::size_t row = units_[position].row;
+    found_.rows[row].add(summaries, seconds, units_.points(position));
+    found_.done[position] = true;
+    checkpoint_.append(position, seconds, summaries, units_, found_);
+    costs_.add(row, units_.points(position), seconds);
+    if (!progress_.is_due()) return;
+    const double left_s = costs_.remaining_s();
+    // Threads share cores with each other and with other programs: what a second brought so far counts.
+    const double elapsed_s = seconds_since(start_);
+    const double speed = elapsed_s > 1 ? (costs_.spent_s() - before_s_) / elapsed_s : threads_;
+    progress_.update(costs_.spent_s(), costs_.spent_s() + left_s, left_s / std::max(speed, 1e-3));
   }
   void fail(std::exception_ptr failure) {
     const std::lock_guard lock(mutex_);
@@ -48,38 +90,56 @@ class Collector {
         throw Failure(ExitCode::regression, e.what());
       }
     }
-    result_.complete = !interrupted();
-    return std::move(result_);
+    UnitSummaries result;
+    result.complete = !interrupted();
+    for (auto& row : found_.rows) result.rows.push_back(std::move(row.parts));
+    return result;
   }
 
  private:
+  static std::vector<CostModel::Row> rows_with_points(const UnitJob& job, const ShardUnits& units) {
+    std::vector<CostModel::Row> rows = job.rows;
+    for (auto& row : rows) row.points = 0;
+    for (std::size_t p = 0; p < units.size(); ++p) rows[units[p].row].points += units.points(p);
+    return rows;
+  }
+
   const UnitJob& job_;
-  double total_;
-  double done_ = 0;
+  const ShardUnits& units_;
+  double threads_;
+  Checkpoint& checkpoint_;
+  CostModel costs_;
   Progress progress_;
+  UnitProgress found_;
+  std::vector<bool> before_;  // done when the threads began
+  double before_s_ = 0;
+  Clock::time_point start_ = Clock::now();
   std::mutex mutex_;
   std::exception_ptr failure_;
   std::atomic<bool> failed_{false};
-  UnitSummaries result_;
 };
 
 }  // namespace
 
-UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads) {
-  std::vector<WorkUnit> mine;
-  double total = 0;
-  for (std::size_t i = shard.index; i < job.units.size(); i += shard.count) {
-    mine.push_back(job.units[i]);
-    total += job.cost(mine.back());
-  }
+double prior_cost(const RealDescriptor& type) {
+  return std::pow(static_cast<double>(type.reference_bits), 1.5);
+}
+
+UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads, Checkpoint& checkpoint) {
+  const ShardUnits units{job.units, shard.index, shard.count};
   const InterruptGuard guard;
-  Collector collector(job, total);
+  Collector collector(job, units, threads, checkpoint);
+  collector.try_costs();
+  collector.begin();
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     const MpfrThread mpfr;
-    for (std::size_t i = next++; i < mine.size() && !interrupted() && !collector.failed(); i = next++) {
+    for (std::size_t p = next++; p < units.size() && !interrupted() && !collector.failed(); p = next++) {
+      if (collector.is_done(p)) continue;
       try {
-        collector.add(mine[i], job.evaluate(mine[i]));
+        const auto start = Clock::now();
+        const auto summaries = job.evaluate(units[p]);
+        collector.add(p, summaries, seconds_since(start));
       } catch (...) {
         collector.fail(std::current_exception());
       }
@@ -92,23 +152,28 @@ UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads
   return collector.take();
 }
 
-RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode) {
+RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode,
+                   Checkpoint& checkpoint) {
   std::vector<std::unique_ptr<RowHint>> hints;
   for (const auto& row : plan.rows()) hints.push_back(std::make_unique<RowHint>(row.function.parts));
+  // Rows of one function and type stand together.
+  std::vector<CostModel::Row> costs;
+  std::size_t group = 0;
+  for (std::size_t i = 0; i < plan.rows().size(); ++i) {
+    const PlanRow& row = plan.rows()[i];
+    if (i > 0 &&
+        (row.engine != plan.rows()[i - 1].engine || row.function.id != plan.rows()[i - 1].function.id))
+      ++group;
+    costs.push_back({group, prior_cost(row.engine->descriptor()), 0});
+  }
   const UnitJob job{
-      "math", plan.units(), plan.rows().size(),
-      [&](const WorkUnit& unit) {
+      "math", plan.units(), std::move(costs), [&](const WorkUnit& unit) {
         const PlanRow& row = plan.rows()[unit.row];
         const CrashPlace place(row.function.name, row.engine->descriptor().token,
                                name_of(row.source.stratum));
         return row.engine->evaluate(row.function, row.source, unit.first, unit.last, mode, *hints[unit.row]);
-      },
-      [&](const WorkUnit& unit) {
-        // Grows with the digits of the reference.
-        const auto bits = static_cast<double>(plan.rows()[unit.row].engine->descriptor().reference_bits);
-        return static_cast<double>(unit.last - unit.first) * std::pow(bits, 1.5);
       }};
-  const UnitSummaries done = run_units(job, shard, threads);
+  const UnitSummaries done = run_units(job, shard, threads, checkpoint);
   RunResult result;
   result.complete = done.complete;
   for (std::size_t i = 0; i < done.rows.size(); ++i) {
