@@ -40,7 +40,7 @@ def parallel(out, *words, program=ULPGATE):
 
 
 def test_shards_give_the_bytes_of_one_process_and_are_not_run_again(one, tmp_path):
-    program = killed_once(tmp_path, "none")
+    program = killed_once(tmp_path, "none", tmp_path)
     done = parallel(tmp_path / "a b", program=program)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "a b/math.jsonl").read_bytes() == one
@@ -61,23 +61,45 @@ def test_shards_give_the_bytes_of_one_process_and_are_not_run_again(one, tmp_pat
 
 
 def test_a_killed_shard_is_named_and_the_same_command_goes_on(one, tmp_path):
-    program = killed_once(tmp_path, "1/3")
+    program = killed_once(tmp_path, "1/3", tmp_path / "o")
     done = parallel(tmp_path / "o", "--retries", 0, program=program)
     assert done.returncode == 4
     assert "1 of 3 shards are not done: 1;" in done.stderr
     assert "signal 9" in done.stderr
     assert not (tmp_path / "o/math.jsonl").exists()
+    kept = tmp_path / "o/shards/1-of-3/units/log.txt"
+    assert " u " in kept.read_text()
     (tmp_path / "runs").unlink()
     done = parallel(tmp_path / "o", "--retries", 0, program=program)
     assert done.returncode == 0, done.stderr
     assert shards_run(tmp_path) == ["1/3"]
+    assert "--resume" in (tmp_path / "runs").read_text()
+    assert not kept.exists()
     assert (tmp_path / "o/math.jsonl").read_bytes() == one
 
 
 def test_a_killed_shard_is_retried(one, tmp_path):
-    done = parallel(tmp_path / "o", program=killed_once(tmp_path, "1/3"))
+    done = parallel(
+        tmp_path / "o", program=killed_once(tmp_path, "1/3", tmp_path / "o")
+    )
     assert done.returncode == 0, done.stderr
     assert sorted(shards_run(tmp_path)) == ["0/3", "1/3", "1/3", "2/3"]
+    assert (tmp_path / "o/math.jsonl").read_bytes() == one
+
+
+def test_what_another_machine_began_starts_anew(one, tmp_path):
+    # As `ulpgate math` does with units of another processor or library.
+    program = tmp_path / "ulpgate"
+    program.write_text(
+        f"""#!/bin/sh
+case " $* " in *" --shard 1/3 "*--resume*) echo another setting >&2; exit 2 ;; esac
+exec "{ULPGATE}" "$@"
+"""
+    )
+    program.chmod(0o755)
+    done = parallel(tmp_path / "o", "--retries", 0, program=program)
+    assert done.returncode == 0, done.stderr
+    assert "from the start" in (tmp_path / "o/shards/1-of-3/log").read_text()
     assert (tmp_path / "o/math.jsonl").read_bytes() == one
 
 

@@ -47,7 +47,7 @@ class Attempts:
 
     def run(self, start, held):
         # What an earlier attempt left could be taken for this one's.
-        for name in ("done", "exit_code", "math.jsonl"):
+        for name in ("done", "exit_code", "math.jsonl", "context.json"):
             (self.directory / name).unlink(missing_ok=True)
         words = [self.job.program, "math", *self.job.math]
         words += ["--threads", str(self.job.threads), "--timing", "off"]

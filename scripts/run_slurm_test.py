@@ -139,8 +139,8 @@ def slurm(out, *words, program=ULPGATE):
 @built
 def test_an_array_and_its_merge_give_the_bytes_of_one_process(one, cluster, tmp_path):
     # The first run of shard 1 is killed: its job repeats it.
-    program = killed_once(tmp_path, "1/3")
     out = tmp_path / "a b"
+    program = killed_once(tmp_path, "1/3", out)
     done = slurm(out, "--wait", program=program)
     assert done.returncode == 0, done.stderr
     assert (out / "math.jsonl").read_bytes() == one
@@ -152,7 +152,7 @@ def test_an_array_and_its_merge_give_the_bytes_of_one_process(one, cluster, tmp_
 
 @built
 def test_a_failed_shard_alone_is_submitted_again(one, cluster, tmp_path):
-    program = killed_once(tmp_path, "1/3")
+    program = killed_once(tmp_path, "1/3", tmp_path / "o")
     out = tmp_path / "o"
     done = slurm(out, "--wait", "--retries", 0, program=program)
     assert done.returncode == 4

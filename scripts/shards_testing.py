@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import shlex
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -26,9 +27,10 @@ def bytes_of_one_process(out):
     return (out / "math.jsonl").read_bytes()
 
 
-def killed_once(directory, shard):
+def killed_once(directory, shard, out):
     """A program that notes its runs in DIRECTORY/runs and whose first run of the shard is killed at work."""
     program = directory / "ulpgate"
+    log = shlex.quote(str(out / f"shards/{shard.replace('/', '-of-')}/units/log.txt"))
     program.write_text(
         f"""#!/bin/sh
 case " $* " in *" --out "*/shards/*) echo "$*" >>"{directory}/runs" ;; esac
@@ -36,6 +38,8 @@ case " $* " in *" --shard {shard} "*) ;; *) exec "{ULPGATE}" "$@" ;; esac
 [ ! -e "{directory}/killed" ] || exec "{ULPGATE}" "$@"
 touch "{directory}/killed"
 "{ULPGATE}" "$@" &
+# Once some of its units are kept.
+until grep -qs ' u ' {log} || ! kill -0 $!; do :; done
 kill -9 $!
 kill -9 $$
 """
