@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,12 @@ struct RunIdentity {
   std::string shard;  // "0/3"
   Json machine;       // of machine_facts(): program, compiler, libraries, processor
 };
+
+// Names what is not as in `here`, with both values; nothing where `there`, a text of identity_text, says the
+// same.
+[[nodiscard]] std::string identity_text(const RunIdentity& identity);
+[[nodiscard]] std::optional<std::string> identity_difference(const std::string& there,
+                                                             const RunIdentity& here);
 
 // What to do with units of an earlier process.
 enum class PartialRun { refuse, resume, discard };
@@ -75,6 +82,7 @@ class Checkpoint {
   // A unit is finished; `progress` has it already.  The caller lets one thread in at a time.
   void append(std::size_t position, double seconds, const std::vector<Summary>& summaries,
               const ShardUnits& units, const UnitProgress& progress);
+  [[nodiscard]] const RunIdentity& identity() const { return identity_; }
   // The run is complete and its records are written: DIR/units goes.
   void remove();
 

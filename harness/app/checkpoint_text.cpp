@@ -74,6 +74,24 @@ std::string unit_payload(std::size_t position, double seconds, const std::vector
   return fmt::format("u {} {}{}", position, hex_bits(seconds), joined(summaries));
 }
 
+std::optional<FinishedUnit> unit_from_payload(std::string_view payload) {
+  const auto fields = split(std::string(payload), ';');
+  const auto words = split(fields.empty() ? "" : fields[0], ' ');
+  FinishedUnit unit;
+  std::uint64_t bits = 0;
+  if (fields.size() < 2 || words.size() != 3 || words[0] != "u" || !parse(words[1], unit.position) ||
+      !parse(words[2], bits, 16)) {
+    return std::nullopt;
+  }
+  unit.seconds = std::bit_cast<double>(bits);
+  for (std::size_t i = 1; i < fields.size(); ++i) {
+    auto s = summary_from_text(fields[i]);
+    if (!s) return std::nullopt;
+    unit.summaries.push_back(std::move(*s));
+  }
+  return unit;
+}
+
 std::string row_payload(std::size_t row, const UnitProgress::Row& progress,
                         const std::vector<std::size_t>& done) {
   std::string ranges;

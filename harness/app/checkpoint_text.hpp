@@ -21,6 +21,13 @@ struct CheckedLine {
 // "u position seconds parts;summary;..."
 [[nodiscard]] std::string unit_payload(std::size_t position, double seconds,
                                        const std::vector<Summary>& summaries);
+// And back; nothing where the text is no such line.
+struct FinishedUnit {
+  std::size_t position = 0;
+  double seconds = 0;
+  std::vector<Summary> summaries;
+};
+[[nodiscard]] std::optional<FinishedUnit> unit_from_payload(std::string_view payload);
 // "r row seconds a-b,c-d;summary;...": the positions of its units that are done, as ranges.
 [[nodiscard]] std::string row_payload(std::size_t row, const UnitProgress::Row& progress,
                                       const std::vector<std::size_t>& done);

@@ -98,9 +98,22 @@ void report_proofs(const std::vector<RowRecord>& records) {
   }
 }
 
-ExitCode run_math(const MathOptions& o) {
+unsigned threads_of(const MathOptions& o, const Ranks* ranks) {
+  if (ranks == nullptr) return o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
+  if (o.threads > 1) throw Failure(ExitCode::bad_input, "--threads: a rank is one thread; start more ranks");
+  return 1;
+}
+
+ExitCode run_math(const MathOptions& o, Ranks* ranks) {
   const Shard shard = parse_shard(o.shard);
   const Plan plan = make_plan(o);
+  const unsigned threads = threads_of(o, ranks);
+  const auto mode = o.reference == "full" ? ReferenceMode::full : ReferenceMode::screened;
+  const RunIdentity identity{"math", plan.hash(), shard.text(), machine_facts()};
+  if (ranks != nullptr && !ranks->writes()) {
+    help_plan(plan, shard, mode, identity, *ranks);
+    return ExitCode::pass;
+  }
   const std::filesystem::path out = o.out;
   make_directory(out);
   if (o.resume && is_finished(out, plan.hash(), shard.text())) {
@@ -108,23 +121,21 @@ ExitCode run_math(const MathOptions& o) {
     return report_oracles(read_records(out).records);
   }
   guard_output(out, plan.hash(), o.overwrite);
-  Checkpoint checkpoint(out, {"math", plan.hash(), shard.text(), machine_facts()},
-                        partial_run(o.resume, o.overwrite));
-  const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  RunResult result =
-      run_plan(plan, shard, threads, o.reference == "full" ? ReferenceMode::full : ReferenceMode::screened,
-               checkpoint);
+  Checkpoint checkpoint(out, identity, partial_run(o.resume, o.overwrite));
+  RunResult result = run_plan(plan, shard, threads, mode, checkpoint, ranks);
   const std::string text = records_text(result.records);
   write_file(out / math_records_file, text);
-  Json context = make_context(plan, {shard.text()}, threads, result.complete && shard.count == 1);
+  Json context =
+      make_context(plan, {shard.text()}, ranks != nullptr ? static_cast<unsigned>(ranks->count()) : threads,
+                   result.complete && shard.count == 1);
   const bool timed = o.timing == "on" || (o.timing == "auto" && shard.count == 1);
   if (timed && result.complete) write_file(out / "timing.jsonl", timing_text(measure_times(plan.request())));
   write_context(out, context, result.complete);
   if (result.complete) checkpoint.remove();
   if (o.json) fmt::print("{}", text);
   if (!result.complete) {
-    throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}; --resume goes on",
-                                                    out.string()));
+    throw Failure(ExitCode::incomplete,
+                  fmt::format("interrupted; what was done is in {}; --resume goes on", out.string()));
   }
   fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(),
              (out / math_records_file).string(), plan.hash());
@@ -134,7 +145,7 @@ ExitCode run_math(const MathOptions& o) {
 
 }  // namespace
 
-void add_math_command(CLI::App& app, Action& action) {
+void add_math_command(CLI::App& app, Action& action, const RanksOfJob& ranks) {
   auto* math = app.add_subcommand("math", "Evaluate math functions and judge them against the reference");
   auto o = std::make_shared<MathOptions>();
   math->add_option("--functions", o->functions, "all, real, complex, special or names, comma-separated")
@@ -168,7 +179,7 @@ void add_math_command(CLI::App& app, Action& action) {
   math->add_flag("--overwrite", o->overwrite, "write over the records of another plan, or a partial run")
       ->excludes(resume);
   math->add_flag("--json", o->json, "print the records as well");
-  math->callback([=, &action] { action = [=] { return run_math(*o); }; });
+  math->callback([=, &action] { action = [=] { return run_math(*o, ranks ? ranks() : nullptr); }; });
 }
 
 }  // namespace ulpgate::app

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -58,8 +59,7 @@ class Collector {
     start_ = Clock::now();
   }
 
-  [[nodiscard]] bool is_done(std::size_t position) const { return before_[position]; }
-  void begin() { before_ = found_.done; }
+  [[nodiscard]] const std::vector<bool>& done() const { return found_.done; }
 
   void add(std::size_t position, const std::vector<Summary>& summaries, double seconds) {
     const std::lock_guard lock(mutex_);
@@ -111,12 +111,62 @@ class Collector {
   CostModel costs_;
   Progress progress_;
   UnitProgress found_;
-  std::vector<bool> before_;  // done when the threads began
   double before_s_ = 0;
   Clock::time_point start_ = Clock::now();
   std::mutex mutex_;
   std::exception_ptr failure_;
   std::atomic<bool> failed_{false};
+};
+
+// Hands the units out, to threads and to ranks.
+class Exchange : public UnitExchange {
+ public:
+  Exchange(Collector& collector, double patience_s)
+      : collector_(collector), queue_(collector.done(), patience_s) {}
+
+  UnitQueue::Taken take(Taker taker) override {
+    const std::lock_guard lock(mutex_);
+    if (stopped()) return {UnitQueue::Answer::all_done};
+    return queue_.take(taker, seconds_since(start_));
+  }
+  void finish(std::size_t position, double seconds, const std::vector<Summary>& summaries) override {
+    const std::lock_guard lock(mutex_);
+    // Only a unit that is kept is done.
+    if (queue_.is_done(position)) return;
+    collector_.add(position, summaries, seconds);
+    queue_.finish(position);
+  }
+  void fail(std::exception_ptr failure) override { collector_.fail(std::move(failure)); }
+  bool over() override {
+    const std::lock_guard lock(mutex_);
+    return stopped() || queue_.all_done();
+  }
+
+ private:
+  [[nodiscard]] bool stopped() const { return interrupted() || collector_.failed(); }
+
+  Collector& collector_;
+  UnitQueue queue_;
+  Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;
+};
+
+// The units of a plan of functions.
+class MathUnits {
+ public:
+  MathUnits(const Plan& plan, ReferenceMode mode) : plan_(plan), mode_(mode) {
+    for (const auto& row : plan.rows()) hints_.push_back(std::make_unique<RowHint>(row.function.parts));
+  }
+  [[nodiscard]] std::vector<Summary> evaluate(const WorkUnit& unit) const {
+    const PlanRow& row = plan_.rows()[unit.row];
+    const CrashPlace place(row.function.name, row.engine->descriptor().token, name_of(row.source.stratum));
+    return row.engine->evaluate(row.function, row.source, unit.first, unit.last, mode_, *hints_[unit.row]);
+  }
+
+ private:
+  const Plan& plan_;
+  ReferenceMode mode_;
+  std::vector<std::unique_ptr<RowHint>> hints_;
 };
 
 }  // namespace
@@ -125,37 +175,49 @@ double prior_cost(const RealDescriptor& type) {
   return std::pow(static_cast<double>(type.reference_bits), 1.5);
 }
 
-UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads, Checkpoint& checkpoint) {
+UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads, Checkpoint& checkpoint,
+                        Ranks* ranks) {
   const ShardUnits units{job.units, shard.index, shard.count};
   const InterruptGuard guard;
   Collector collector(job, units, threads, checkpoint);
   collector.try_costs();
-  collector.begin();
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
+  Exchange exchange(collector,
+                    ranks != nullptr ? ranks->patience_s() : std::numeric_limits<double>::infinity());
+  const auto work = [&](Taker self) {
     const MpfrThread mpfr;
-    for (std::size_t p = next++; p < units.size() && !interrupted() && !collector.failed(); p = next++) {
-      if (collector.is_done(p)) continue;
+    while (true) {
+      const auto taken = exchange.take(self);
+      if (taken.answer == UnitQueue::Answer::wait && ranks != nullptr) {
+        // What another rank has may yet be given to this one.
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        continue;
+      }
+      if (taken.answer != UnitQueue::Answer::unit) break;
       try {
         const auto start = Clock::now();
-        const auto summaries = job.evaluate(units[p]);
-        collector.add(p, summaries, seconds_since(start));
+        const auto summaries = job.evaluate(units[taken.position]);
+        exchange.finish(taken.position, seconds_since(start), summaries);
       } catch (...) {
-        collector.fail(std::current_exception());
+        exchange.fail(std::current_exception());
       }
     }
   };
+  // Ranks are takers by their number, threads count from behind.
   std::vector<std::thread> pool;
-  for (unsigned t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
+  const Taker last = std::numeric_limits<Taker>::max();
+  for (unsigned t = ranks != nullptr ? 0 : 1; t < threads; ++t) pool.emplace_back(work, last - t);
+  if (ranks != nullptr) {
+    ranks->serve(exchange, checkpoint.identity());
+  } else {
+    work(last);
+  }
   for (auto& t : pool) t.join();
   return collector.take();
 }
 
 RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode,
-                   Checkpoint& checkpoint) {
-  std::vector<std::unique_ptr<RowHint>> hints;
-  for (const auto& row : plan.rows()) hints.push_back(std::make_unique<RowHint>(row.function.parts));
+                   Checkpoint& checkpoint, Ranks* ranks) {
+  const MathUnits math(plan, mode);
   // Rows of one function and type stand together.
   std::vector<CostModel::Row> costs;
   std::size_t group = 0;
@@ -166,14 +228,9 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, Refer
       ++group;
     costs.push_back({group, prior_cost(row.engine->descriptor()), 0});
   }
-  const UnitJob job{
-      "math", plan.units(), std::move(costs), [&](const WorkUnit& unit) {
-        const PlanRow& row = plan.rows()[unit.row];
-        const CrashPlace place(row.function.name, row.engine->descriptor().token,
-                               name_of(row.source.stratum));
-        return row.engine->evaluate(row.function, row.source, unit.first, unit.last, mode, *hints[unit.row]);
-      }};
-  const UnitSummaries done = run_units(job, shard, threads, checkpoint);
+  const UnitJob job{"math", plan.units(), std::move(costs),
+                    [&](const WorkUnit& unit) { return math.evaluate(unit); }};
+  const UnitSummaries done = run_units(job, shard, threads, checkpoint, ranks);
   RunResult result;
   result.complete = done.complete;
   for (std::size_t i = 0; i < done.rows.size(); ++i) {
@@ -182,6 +239,14 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, Refer
       result.records.push_back(std::move(record));
   }
   return result;
+}
+
+void help_plan(const Plan& plan, const Shard& shard, ReferenceMode mode, const RunIdentity& identity,
+               Ranks& ranks) {
+  const MathUnits math(plan, mode);
+  const InterruptGuard guard;
+  ranks.help(identity, {plan.units(), shard.index, shard.count},
+             [&](const WorkUnit& unit) { return math.evaluate(unit); });
 }
 
 }  // namespace ulpgate::app

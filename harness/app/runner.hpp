@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/app/checkpoint.hpp"
+#include "harness/app/ranks.hpp"
 #include "harness/app/selection.hpp"
 #include "harness/core/cost_model.hpp"
 #include "harness/core/row_record.hpp"
@@ -29,15 +30,19 @@ struct UnitSummaries {
 };
 
 // Runs the units of the shard (unit i belongs to shard i mod count).  The result does not depend on
-// `threads`, nor on which units a checkpoint had.  A ReferenceDisagreement becomes a Failure with exit code 1.
+// `threads`, nor on which units a checkpoint had.  A ReferenceDisagreement becomes a Failure with exit
+// code 1. With `ranks` the calling thread serves the other ranks beside the `threads`.
 [[nodiscard]] UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads,
-                                      Checkpoint& checkpoint);
+                                      Checkpoint& checkpoint, Ranks* ranks = nullptr);
 
 struct RunResult {
   std::vector<RowRecord> records;
   bool complete = true;
 };
 [[nodiscard]] RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode,
-                                 Checkpoint& checkpoint);
+                                 Checkpoint& checkpoint, Ranks* ranks = nullptr);
+// A rank that does not write: takes units of the same plan until there are no more.
+void help_plan(const Plan& plan, const Shard& shard, ReferenceMode mode, const RunIdentity& identity,
+               Ranks& ranks);
 
 }  // namespace ulpgate::app
