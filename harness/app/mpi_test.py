@@ -108,12 +108,12 @@ def test_the_other_ranks_finish_without_the_one_that_died(one, tmp_path):
 
 def test_bad_usage_is_exit_2_with_one_message(tmp_path):
     table = [
-        (["--functions", "sine"], "did you mean 'sin'"),
+        (["--strata", "unifrm"], "did you mean 'uniform'"),
         (["--threads", "2"], "a rank is one thread"),
         (["--no-such-option"], "no-such-option"),
     ]
     for words, message in table:
-        command = [*MPIRUN, "-np", "2", ULPGATE_MPI, "math", *words]
+        command = [*MPIRUN, "-np", "2", ULPGATE_MPI, "math", *SMALL, *words]
         command += ["--out", str(tmp_path / "x")]
         done = subprocess.run(command, capture_output=True, text=True, timeout=WAIT_S)
         assert done.returncode == 2, done.stderr
