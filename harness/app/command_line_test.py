@@ -162,6 +162,10 @@ def test_records_do_not_depend_on_threads_or_shards(tmp_path):
     assert code == 3 and "2 of 3 shards" in err
     code, _, err = run("merge", parts[0], parts[0], "--out", str(tmp_path / "twice"))
     assert code == 2 and "twice" in err
+    context = pathlib.Path(parts[1]) / "context.json"
+    context.write_text(json.dumps(json.loads(context.read_text()) | {"cpu": "another"}))
+    code, _, err = run("merge", *parts, "--out", str(tmp_path / "mixed"))
+    assert code == 0 and err.count("another cpu") == 1 and parts[1] in err
 
 
 def test_the_screened_reference_gives_the_records_of_the_full_one(tmp_path):

@@ -31,6 +31,24 @@ std::string boost_version() {
 
 }  // namespace
 
+// What every kind of run says about itself.
+Json machine_facts() {
+  Json c;
+  c["tool"] = {{"name", "ulpgate"}, {"version", build_facts::version}};
+  c["compiler"] = build_facts::compiler;
+  c["flags"] = build_facts::flags;
+  c["build_type"] = build_facts::build_type;
+  c["libraries"] = {
+      {"glibc", gnu_get_libc_version()},
+      {"Boost", boost_version()},
+      {"MPFR", mpfr_get_version()},
+      {"MPC", mpc_get_version()},
+      {"GMP", gmp_version},
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  c["cpu"] = cpu_name();
+  return c;
+}
+
 Json type_rows(const std::vector<std::string>& tokens) {
   Json rows = Json::array();
   for (const auto& token : tokens) {
@@ -48,31 +66,13 @@ Json type_rows(const std::vector<std::string>& tokens) {
 
 namespace {
 
-// What every kind of run says about itself.
-Json build_and_machine() {
-  Json c;
-  c["tool"] = {{"name", "ulpgate"}, {"version", build_facts::version}};
-  c["compiler"] = build_facts::compiler;
-  c["flags"] = build_facts::flags;
-  c["build_type"] = build_facts::build_type;
-  c["libraries"] = {
-      {"glibc", gnu_get_libc_version()},
-      {"Boost", boost_version()},
-      {"MPFR", mpfr_get_version()},
-      {"MPC", mpc_get_version()},
-      {"GMP", gmp_version},
-      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
-  c["cpu"] = cpu_name();
-  return c;
-}
-
 // And a run over strata of samples.
 template <class AnyPlan>
 Json context_of(const AnyPlan& plan, const std::vector<std::string>& shards, unsigned threads,
                 bool complete) {
   Json strata = Json::array();
   for (const auto s : plan.request().strata) strata.push_back(name_of(s));
-  Json c = build_and_machine();
+  Json c = machine_facts();
   c["seed"] = plan.request().seed;
   c["samples"] = plan.request().samples;
   c["strata"] = strata;
@@ -125,7 +125,7 @@ Json make_context(const KernelPlan& plan, const std::vector<std::string>& shards
 
 Json make_scene_context(const std::string& plan, const std::string& plan_text,
                         const std::vector<std::string>& types, unsigned threads, bool complete) {
-  Json c = build_and_machine();
+  Json c = machine_facts();
   c["plan"] = plan;
   c["plan_text"] = plan_text;
   c["threads"] = threads;

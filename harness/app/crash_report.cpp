@@ -40,6 +40,8 @@ void on_crash(int signal) {
 }  // namespace
 
 void install_crash_report() {
+  // Beyond a limit on file sizes a write then fails like one to a full disk, and is reported like one.
+  std::signal(SIGXFSZ, SIG_IGN);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   for (const int s : {SIGSEGV, SIGFPE, SIGILL, SIGABRT, SIGBUS}) std::signal(s, on_crash);
 #else

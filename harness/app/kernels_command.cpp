@@ -1,9 +1,11 @@
 // ulpgate kernels: runs the DEM kernels over strata of states and writes records.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
+#include "harness/app/checkpoint.hpp"
 #include "harness/app/commands.hpp"
 #include "harness/app/context.hpp"
 #include "harness/app/crash_report.hpp"
@@ -26,28 +28,31 @@ struct KernelOptions {
   std::string shard = "0/1";
   std::string out;
   bool timing = false;
+  bool resume = false;
   bool overwrite = false;
   bool audit = false;
   bool json = false;
 };
 
-std::vector<RowRecord> measure(const KernelPlan& plan, const Shard& shard, unsigned threads, bool& complete) {
+std::vector<RowRecord> measure(const KernelPlan& plan, const Shard& shard, unsigned threads,
+                               Checkpoint& checkpoint, bool& complete) {
   std::vector<std::unique_ptr<RowHint>> hints;
   for (const auto& row : plan.rows())
     hints.push_back(std::make_unique<RowHint>(static_cast<int>(row.kernel->outputs.size())));
+  std::vector<CostModel::Row> costs;
+  for (const auto& row : plan.rows()) {
+    const auto type = static_cast<std::size_t>(
+        std::ranges::find(plan.request().types, row.engine->descriptor().token) - plan.request().types.begin());
+    const auto group = type * dem::all_kernels().size() + static_cast<std::size_t>(row.kernel->id);
+    costs.push_back({group, prior_cost(row.engine->descriptor()), 0});
+  }
   const UnitJob job{
-      "kernels", plan.units(), plan.rows().size(),
-      [&](const WorkUnit& unit) {
+      "kernels", plan.units(), std::move(costs), [&](const WorkUnit& unit) {
         const KernelRow& row = plan.rows()[unit.row];
         const CrashPlace place(row.kernel->name, row.engine->descriptor().token, name_of(row.source.stratum));
         return row.engine->evaluate(*row.kernel, row.source, unit.first, unit.last, *hints[unit.row]);
-      },
-      [&](const WorkUnit& unit) {
-        const auto& engine = *plan.rows()[unit.row].engine;
-        const auto bits = static_cast<double>(engine.descriptor().reference_bits);
-        return static_cast<double>(unit.last - unit.first) * std::pow(bits, 1.5);
       }};
-  const UnitSummaries done = run_units(job, shard, threads);
+  const UnitSummaries done = run_units(job, shard, threads, checkpoint);
   complete = done.complete;
   std::vector<RowRecord> records;
   for (std::size_t i = 0; i < done.rows.size(); ++i) {
@@ -93,18 +98,27 @@ ExitCode run_kernels(const KernelOptions& o) {
   const KernelPlan plan(std::move(request));
   const std::filesystem::path out = o.out;
   make_directory(out);
+  if (o.resume && is_finished(out, plan.hash(), shard.text())) {
+    fmt::print(stderr, "ulpgate: {} is complete already\n", out.string());
+    print_unstable(read_records(out).records);
+    return ExitCode::pass;
+  }
   guard_output(out, plan.hash(), o.overwrite);
+  Checkpoint checkpoint(out, {"kernels", plan.hash(), shard.text(), machine_facts()},
+                        partial_run(o.resume, o.overwrite));
   const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
   bool complete = true;
-  const auto records = measure(plan, shard, threads, complete);
+  const auto records = measure(plan, shard, threads, checkpoint, complete);
   const std::string text = records_text(records);
   write_file(out / kernel_records_file, text);
-  const Json context = make_context(plan, {shard.text()}, threads, complete && shard.count == 1);
-  write_file(out / "context.json", context.dump(2) + "\n");
+  Json context = make_context(plan, {shard.text()}, threads, complete && shard.count == 1);
   if (o.timing && complete) write_file(out / "timing.jsonl", timing_text(measure_times(plan.request())));
+  write_context(out, context, complete);
+  if (complete) checkpoint.remove();
   if (o.json) fmt::print("{}", text);
   if (!complete) {
-    throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}", out.string()));
+    throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}; --resume goes on",
+                                                    out.string()));
   }
   fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", records.size(),
              (out / kernel_records_file).string(), plan.hash());
@@ -133,7 +147,10 @@ void add_kernels_command(CLI::App& app, Action& action) {
   kernels->add_option("--out", o->out, "directory of the records");
   kernels->add_flag("--timing", o->timing, "write timing.jsonl: ns per evaluation of every kernel");
   kernels->add_flag("--audit", o->audit, "name kernels that hold a double literal instead of measuring");
-  kernels->add_flag("--overwrite", o->overwrite, "write over the records of another plan");
+  auto* resume = kernels->add_flag("--resume", o->resume,
+                                   "go on with a run that was interrupted or killed; a new one starts");
+  kernels->add_flag("--overwrite", o->overwrite, "write over the records of another plan, or a partial run")
+      ->excludes(resume);
   kernels->add_flag("--json", o->json, "print the records as well");
   kernels->callback([=, &action] { action = [=] { return run_kernels(*o); }; });
 }

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   add_integrators_command(app, action);
   add_scene_command(app, action);
   add_at_command(app, action);
+  add_search_command(app, action);
   add_merge_command(app, action);
   add_gate_command(app, action);
   add_report_command(app, action);

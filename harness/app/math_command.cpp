@@ -1,9 +1,11 @@
 // ulpgate math: runs functions over strata of arguments and writes records.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <thread>
 
+#include "harness/app/checkpoint.hpp"
 #include "harness/app/commands.hpp"
 #include "harness/app/context.hpp"
 #include "harness/app/files.hpp"
@@ -28,6 +30,7 @@ struct MathOptions {
   std::string reference = "screened";
   std::string worst_cases;
   std::string timing = "auto";
+  bool resume = false;
   bool overwrite = false;
   bool json = false;
 };
@@ -37,6 +40,7 @@ Plan make_plan(const MathOptions& o) {
   request.functions = select_functions(o.functions);
   request.types = select_types(o.types);
   request.strata = select_strata(o.strata);
+  narrow_to_exhaustible(o.functions, o.types, request);
   request.samples = o.samples;
   request.seed = o.seed;
   WorstCases worst;
@@ -82,33 +86,66 @@ ExitCode report_oracles(const std::vector<RowRecord>& records) {
   return code;
 }
 
-ExitCode run_math(const MathOptions& o) {
+// The largest errors of all floats: no other argument exists.
+void report_proofs(const std::vector<RowRecord>& records) {
+  for (const auto& r : records) {
+    if (!is_proof(r)) continue;
+    fmt::print(stderr,
+               "ulpgate: proof for this libm: over all 2^32 floats {} is off by at most {} ULP, at {}; {} "
+               "mismatches\n",
+               r.function, r.summary.max_error.value, fmt::join(r.points.argmax, " "),
+               r.summary.mismatches());
+  }
+}
+
+unsigned threads_of(const MathOptions& o, const Ranks* ranks) {
+  if (ranks == nullptr) return o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
+  if (o.threads > 1) throw Failure(ExitCode::bad_input, "--threads: a rank is one thread; start more ranks");
+  return 1;
+}
+
+ExitCode run_math(const MathOptions& o, Ranks* ranks) {
   const Shard shard = parse_shard(o.shard);
   const Plan plan = make_plan(o);
+  const unsigned threads = threads_of(o, ranks);
+  const auto mode = o.reference == "full" ? ReferenceMode::full : ReferenceMode::screened;
+  const RunIdentity identity{"math", plan.hash(), shard.text(), machine_facts()};
+  if (ranks != nullptr && !ranks->writes()) {
+    help_plan(plan, shard, mode, identity, *ranks);
+    return ExitCode::pass;
+  }
   const std::filesystem::path out = o.out;
   make_directory(out);
+  if (o.resume && is_finished(out, plan.hash(), shard.text())) {
+    fmt::print(stderr, "ulpgate: {} is complete already\n", out.string());
+    return report_oracles(read_records(out).records);
+  }
   guard_output(out, plan.hash(), o.overwrite);
-  const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  RunResult result =
-      run_plan(plan, shard, threads, o.reference == "full" ? ReferenceMode::full : ReferenceMode::screened);
+  Checkpoint checkpoint(out, identity, partial_run(o.resume, o.overwrite));
+  RunResult result = run_plan(plan, shard, threads, mode, checkpoint, ranks);
   const std::string text = records_text(result.records);
   write_file(out / math_records_file, text);
-  const Json context = make_context(plan, {shard.text()}, threads, result.complete && shard.count == 1);
-  write_file(out / "context.json", context.dump(2) + "\n");
+  Json context =
+      make_context(plan, {shard.text()}, ranks != nullptr ? static_cast<unsigned>(ranks->count()) : threads,
+                   result.complete && shard.count == 1);
   const bool timed = o.timing == "on" || (o.timing == "auto" && shard.count == 1);
   if (timed && result.complete) write_file(out / "timing.jsonl", timing_text(measure_times(plan.request())));
+  write_context(out, context, result.complete);
+  if (result.complete) checkpoint.remove();
   if (o.json) fmt::print("{}", text);
   if (!result.complete) {
-    throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}", out.string()));
+    throw Failure(ExitCode::incomplete,
+                  fmt::format("interrupted; what was done is in {}; --resume goes on", out.string()));
   }
   fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(),
              (out / math_records_file).string(), plan.hash());
+  report_proofs(result.records);
   return report_oracles(result.records);
 }
 
 }  // namespace
 
-void add_math_command(CLI::App& app, Action& action) {
+void add_math_command(CLI::App& app, Action& action, const RanksOfJob& ranks) {
   auto* math = app.add_subcommand("math", "Evaluate math functions and judge them against the reference");
   auto o = std::make_shared<MathOptions>();
   math->add_option("--functions", o->functions, "all, real, complex, special or names, comma-separated")
@@ -137,9 +174,12 @@ void add_math_command(CLI::App& app, Action& action) {
   math->add_option("--timing", o->timing, "write timing.jsonl: auto (unless a shard), on, off")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
-  math->add_flag("--overwrite", o->overwrite, "write over the records of another plan");
+  auto* resume = math->add_flag("--resume", o->resume,
+                                "go on with a run that was interrupted or killed; a new one starts");
+  math->add_flag("--overwrite", o->overwrite, "write over the records of another plan, or a partial run")
+      ->excludes(resume);
   math->add_flag("--json", o->json, "print the records as well");
-  math->callback([=, &action] { action = [=] { return run_math(*o); }; });
+  math->callback([=, &action] { action = [=] { return run_math(*o, ranks ? ranks() : nullptr); }; });
 }
 
 }  // namespace ulpgate::app

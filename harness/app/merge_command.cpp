@@ -13,6 +13,21 @@ namespace ulpgate::app {
 
 namespace {
 
+// Another processor or library may give other last bits than one process would: said, not refused.
+void note_other_machine(const std::string& directory, const Json& here, const std::string& first,
+                        const Json& there) {
+  for (const auto* key : {"tool", "compiler", "flags", "build_type", "libraries", "cpu"}) {
+    const Json mine = here.value(key, Json());
+    const Json theirs = there.value(key, Json());
+    if (mine == theirs) continue;
+    fmt::print(
+        stderr,
+        "ulpgate: note: {} was run with another {} than {}: {}, not {}; the bytes need not be those of "
+        "one process\n",
+        directory, key, first, mine.dump(), theirs.dump());
+  }
+}
+
 ExitCode run_merge(const std::vector<std::string>& directories, const std::string& out) {
   std::map<std::string, RowRecord> rows;
   std::set<std::string> shards;
@@ -30,6 +45,7 @@ ExitCode run_merge(const std::vector<std::string>& directories, const std::strin
                                                      set.context.value("plan", ""), directories.front(),
                                                      context.value("plan", "")));
     }
+    note_other_machine(directory, set.context, directories.front(), context);
     for (const std::string shard : set.context.at("shards")) {
       const Shard s = parse_shard(shard);
       if (shard_count == 0) shard_count = s.count;
@@ -56,6 +72,7 @@ ExitCode run_merge(const std::vector<std::string>& directories, const std::strin
   }
   context["shards"] = std::vector<std::string>(shards.begin(), shards.end());
   context["complete"] = complete;
+  context["finished"] = complete;
   make_directory(out);
   write_file(std::filesystem::path(out) / file, records_text(std::move(records)));
   write_file(std::filesystem::path(out) / "context.json", context.dump(2) + "\n");

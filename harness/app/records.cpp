@@ -92,6 +92,7 @@ std::string to_json_line(const RowRecord& r) {
                    {"argmax", r.points.oracle_argmax},
                    {"argmax_index", index_to(s.oracle.difference.index)}};
   }
+  if (is_proof(r)) j["proof"] = true;
   j["reference"] = r.reference;
   j["reference_bits"] = r.reference_bits;
   j["plan"] = r.plan;
@@ -188,6 +189,18 @@ RecordSet read_records(const std::filesystem::path& directory) {
     }
   }
   return set;
+}
+
+void write_context(const std::filesystem::path& out, Json context, bool finished) {
+  context["finished"] = finished;
+  write_file(out / "context.json", context.dump(2) + "\n");
+}
+
+bool is_finished(const std::filesystem::path& out, const std::string& plan_hash, const std::string& shard) {
+  if (!std::filesystem::exists(out / "context.json") || std::filesystem::exists(out / "units")) return false;
+  const Json context = Json::parse(read_file(out / "context.json"), nullptr, false);
+  return context.is_object() && context.value("plan", "") == plan_hash && context.value("finished", false) &&
+         context.value("shards", Json()) == Json({shard});
 }
 
 void guard_output(const std::filesystem::path& out, const std::string& plan_hash, bool overwrite) {

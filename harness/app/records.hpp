@@ -30,6 +30,11 @@ struct RecordSet {
   std::string file;  // name of the file that holds them
 };
 [[nodiscard]] RecordSet read_records(const std::filesystem::path& directory);
+// Writes context.json; `finished` says that every unit of the shard was done.
+void write_context(const std::filesystem::path& out, Json context, bool finished);
+// Whether `out` holds all records of this shard of this plan.
+[[nodiscard]] bool is_finished(const std::filesystem::path& out, const std::string& plan_hash,
+                               const std::string& shard);
 // Throws a Failure unless `out` is empty or holds records of the plan with this hash: those of another plan
 // are somebody's results and are not written over unless asked.
 void guard_output(const std::filesystem::path& out, const std::string& plan_hash, bool overwrite);

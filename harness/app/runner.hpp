@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "harness/app/checkpoint.hpp"
+#include "harness/app/ranks.hpp"
 #include "harness/app/selection.hpp"
+#include "harness/core/cost_model.hpp"
 #include "harness/core/row_record.hpp"
 
 namespace ulpgate::app {
@@ -14,10 +17,12 @@ namespace ulpgate::app {
 struct UnitJob {
   std::string name;  // in the progress bar
   const std::vector<WorkUnit>& units;
-  std::size_t rows;
+  std::vector<CostModel::Row> rows;  // for the progress bar: its points are filled in here
   std::function<std::vector<Summary>(const WorkUnit&)> evaluate;
-  std::function<double(const WorkUnit&)> cost;  // for the progress bar alone
 };
+
+// A guess for the first seconds of the progress bar: the cost of a point grows with the reference's bits.
+[[nodiscard]] double prior_cost(const RealDescriptor& type);
 
 struct UnitSummaries {
   std::vector<std::vector<Summary>> rows;  // [row][part]; empty where no unit of the row was done
@@ -25,13 +30,19 @@ struct UnitSummaries {
 };
 
 // Runs the units of the shard (unit i belongs to shard i mod count).  The result does not depend on
-// `threads`.  A ReferenceDisagreement becomes a Failure with exit code 1.
-[[nodiscard]] UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads);
+// `threads`, nor on which units a checkpoint had.  A ReferenceDisagreement becomes a Failure with exit
+// code 1. With `ranks` the calling thread serves the other ranks beside the `threads`.
+[[nodiscard]] UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads,
+                                      Checkpoint& checkpoint, Ranks* ranks = nullptr);
 
 struct RunResult {
   std::vector<RowRecord> records;
   bool complete = true;
 };
-[[nodiscard]] RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode);
+[[nodiscard]] RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode,
+                                 Checkpoint& checkpoint, Ranks* ranks = nullptr);
+// A rank that does not write: takes units of the same plan until there are no more.
+void help_plan(const Plan& plan, const Shard& shard, ReferenceMode mode, const RunIdentity& identity,
+               Ranks& ranks);
 
 }  // namespace ulpgate::app

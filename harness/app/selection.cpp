@@ -149,12 +149,38 @@ std::vector<Stratum> select_strata(const std::string& text) {
     known.emplace_back(s.name);
     all.push_back(s.id);
   }
-  const std::vector<std::string> chosen = text == "all" ? known : split(text, ',');
+  std::vector<std::string> chosen = known;
+  // All 2^32 floats are a run of their own: asked for by name alone.
+  std::erase(chosen, name_of(Stratum::exhaustive));
+  if (text != "all") chosen = split(text, ',');
   for (const auto& name : chosen) {
     if (!find_stratum(name)) unknown_name("stratum", name, known);
   }
   if (chosen.empty()) throw Failure(ExitCode::bad_input, "--strata names no stratum");
   return in_order(all, chosen, [](Stratum s) { return std::string(name_of(s)); });
+}
+
+void narrow_to_exhaustible(const std::string& functions, const std::string& types, PlanRequest& request) {
+  if (std::ranges::find(request.strata, Stratum::exhaustive) == request.strata.end()) return;
+  if (types != "all") {
+    for (const auto& token : request.types) {
+      if (token == "float") continue;
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("--strata exhaustive takes float alone: {} has too many values", token));
+    }
+  }
+  for (const auto& name : split(functions, ',')) {
+    const auto f = find_function(name);
+    if (!f || Plan::can_exhaust(*f, "float")) continue;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("--strata exhaustive takes real functions of one argument: {} is {}", name,
+                              f->function_class == FunctionClass::real
+                                  ? fmt::format("one of {} arguments", f->arity)
+                                  : fmt::format("a {} function", name_of(f->function_class))));
+  }
+  if (request.strata.size() > 1) return;
+  std::erase_if(request.types, [](const std::string& token) { return token != "float"; });
+  std::erase_if(request.functions, [](FunctionId id) { return !Plan::can_exhaust(info_of(id), "float"); });
 }
 
 Shard parse_shard(const std::string& text) {

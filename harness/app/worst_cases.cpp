@@ -2,6 +2,7 @@
 #include "harness/app/worst_cases.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -84,6 +85,40 @@ WorstCaseFile read_worst_cases(const std::filesystem::path& directory, const Pla
     }
   }
   return out;
+}
+
+ArgumentList worst_cases_of(const std::filesystem::path& directory, const FunctionInfo& f,
+                            const std::string& token) {
+  PlanRequest request;
+  request.functions = {f.id};
+  request.types = {token};
+  return std::move(read_worst_cases(directory, request).cases[{f.id, token}]);
+}
+
+std::string offer_worst_case(const std::filesystem::path& directory, const FunctionInfo& f,
+                             const std::string& token, const std::vector<MpfrValue>& args, double error_ulp) {
+  const auto file = directory / (token + ".txt");
+  const TypeEngine& engine = type_or_fail(token);
+  for (const auto& point : worst_cases_of(directory, f, token)) {
+    const Point there = engine.point(f, point);
+    double error = -1;
+    for (const auto& part : there.parts) {
+      if (part.judgement.outcome == Outcome::finite) error = std::max(error, part.judgement.error.value);
+    }
+    if (error < error_ulp) continue;
+    return fmt::format("{} holds {} {} already, {:.6g} ULP: nothing added", file.string(), f.name,
+                       fmt::join(there.args_hex, " "), error);
+  }
+  std::string text;
+  if (std::filesystem::exists(file)) text = read_file(file);
+  if (text.empty()) text = fmt::format("# Arguments with large errors in {}.\n", token);
+  if (!text.ends_with('\n')) text += '\n';
+  std::string line(f.name);
+  for (const auto& x : args) line += " " + to_hexfloat(x.get());
+  text += fmt::format("{:<32} # {:.6g} ULP, found by search\n", line, error_ulp);
+  write_file(file, text);
+  return fmt::format("added to {}: {}; the budgets of stratum `worst` follow with `ulpgate gate --update`",
+                     file.string(), line);
 }
 
 }  // namespace ulpgate::app

@@ -18,6 +18,15 @@ struct WorstCaseFile {
 [[nodiscard]] WorstCaseFile read_worst_cases(const std::filesystem::path& directory,
                                              const PlanRequest& request);
 
+// The cases of one function in one type that a directory holds.
+[[nodiscard]] ArgumentList worst_cases_of(const std::filesystem::path& directory, const FunctionInfo& f,
+                                          const std::string& token);
+// Adds the point to the file of the type unless the file holds one of the function with at least this error;
+// says what was done.
+[[nodiscard]] std::string offer_worst_case(const std::filesystem::path& directory, const FunctionInfo& f,
+                                           const std::string& token, const std::vector<MpfrValue>& args,
+                                           double error_ulp);
+
 // A number of the type; the Failure of a bad one begins with `place`.
 [[nodiscard]] MpfrValue parse_number(const RealDescriptor& type, const std::string& text,
                                      const std::string& place);

@@ -14,6 +14,8 @@ namespace ulpgate {
 
 // One in this many samples is also evaluated with the family's RealHP<4>, chosen by its index.
 inline constexpr std::uint64_t oracle_stride = 251;
+// Of the 2^32 points of an exhaustive row one in this many: a prime, 65536 comparisons a row.
+inline constexpr std::uint64_t exhaustive_oracle_stride = 65537;
 // The oracles agree when they differ by less than this, in ULP of Real; both carry some 3 p bits more than
 // Real.
 inline constexpr double oracle_tolerance_ulp = 0x1p-16;
@@ -36,6 +38,8 @@ class Engine final : public TypeEngine {
     const auto parts = static_cast<std::size_t>(f.parts);
     const Arguments<Real> arguments(f, source);
     const Judging<Real>& judging = judging_for(mode);
+    const std::uint64_t stride =
+        source.stratum == Stratum::exhaustive ? exhaustive_oracle_stride : oracle_stride;
     std::vector<Summary> summaries(parts);
     std::vector<Real> args(batch_size * arity);
     std::vector<Real> results(batch_size * parts);
@@ -56,7 +60,7 @@ class Engine final : public TypeEngine {
           update_condition(f, &args[i * arity], static_cast<int>(j), judgement, summaries[j],
                            hint.error_over_condition[j]);
         }
-        if ((k + i) % oracle_stride == 0) compare_oracles(f, &args[i * arity], k + i, summaries);
+        if ((k + i) % stride == 0) compare_oracles(f, &args[i * arity], k + i, summaries);
       }
     }
     return summaries;

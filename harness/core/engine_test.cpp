@@ -88,5 +88,20 @@ TEST(Plan, HalvesSamplesAndCoversEveryRow) {
   EXPECT_NE(Plan(request, {}).hash(), plan.hash());
 }
 
+TEST(Plan, TheExhaustiveStratumHoldsEveryFloatOnce) {
+  PlanRequest request;
+  request.functions = {FunctionId::sin, FunctionId::add, FunctionId::csin};
+  request.types = {"float", "double"};
+  request.strata = {Stratum::exhaustive};
+  const Plan plan(request, {});
+  ASSERT_EQ(plan.rows().size(), 1U) << "real functions of one argument, of float";
+  std::uint64_t next = 0;
+  for (const auto& unit : plan.units()) {
+    EXPECT_EQ(unit.first, next);
+    next = unit.last;
+  }
+  EXPECT_EQ(next, exhaustive_count);
+}
+
 }  // namespace
 }  // namespace ulpgate

@@ -29,16 +29,23 @@ std::string plan_text(const PlanRequest& r) {
   std::vector<std::string_view> strata;
   for (const auto id : r.functions) functions.push_back(info_of(id).name);
   for (const auto s : r.strata) strata.push_back(name_of(s));
+  std::string units = fmt::format("{}", unit_size);
+  if (std::ranges::find(r.strata, Stratum::exhaustive) != r.strata.end())
+    units += fmt::format(" exhaustive {}", exhaustive_unit_size);
   // Versions of the rules that make arguments and that record errors: raise them when they change.
   return fmt::format(
       "ulpgate math plan\narguments 1\nerrors 2\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata "
       "{}\nfunctions {}\n"
       "reference full\nworst_cases {:016x}\n",
-      unit_size, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","),
+      units, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","),
       fmt::join(functions, ","), fnv1a(r.worst_cases_text));
 }
 
 }  // namespace
+
+bool Plan::can_exhaust(const FunctionInfo& f, std::string_view type) {
+  return type == "float" && f.function_class == FunctionClass::real && f.arity == 1;
+}
 
 std::uint64_t Plan::drawn_count(Stratum s, std::uint64_t samples) {
   return s == Stratum::uniform ? samples - samples / 2 : samples / 2;
@@ -52,7 +59,9 @@ Plan::Plan(PlanRequest request, const WorstCases& worst) : request_(std::move(re
       const FunctionInfo& f = info_of(id);
       for (const auto s : request_.strata) {
         StratumSource source{s, request_.seed, 0, nullptr};
-        if (is_drawn(s)) {
+        if (s == Stratum::exhaustive) {
+          source.count = can_exhaust(f, token) ? exhaustive_count : 0;
+        } else if (is_drawn(s)) {
           source.count = drawn_count(s, request_.samples);
         } else {
           ArgumentList list;
@@ -70,8 +79,9 @@ Plan::Plan(PlanRequest request, const WorstCases& worst) : request_(std::move(re
     }
   }
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    for (std::uint64_t k = 0; k < rows_[row].source.count; k += unit_size) {
-      units_.push_back({row, k, std::min(k + unit_size, rows_[row].source.count)});
+    const std::uint64_t size = unit_size_of(rows_[row].source.stratum);
+    for (std::uint64_t k = 0; k < rows_[row].source.count; k += size) {
+      units_.push_back({row, k, std::min(k + size, rows_[row].source.count)});
     }
   }
   // Worst cases answer first: a merge gate that is going to fail should fail early.

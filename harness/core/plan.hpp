@@ -45,6 +45,8 @@ class Plan {
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] const std::string& hash() const { return hash_; }
 
+  // Whether the function has an exhaustive row in the type: real functions of one argument, of float.
+  [[nodiscard]] static bool can_exhaust(const FunctionInfo& f, std::string_view type);
   // Points of a drawn stratum: uniform and stratified share --samples in equal halves (uniform gets the odd
   // one), binades get as many as a half.
   [[nodiscard]] static std::uint64_t drawn_count(Stratum s, std::uint64_t samples);
@@ -60,5 +62,10 @@ class Plan {
 
 // Units have a fixed size: it bounds what a killed run loses and how finely shards can be dealt.
 inline constexpr std::uint64_t unit_size = 2048;
+// The 2^32 points of an exhaustive row would be two million of those.
+inline constexpr std::uint64_t exhaustive_unit_size = std::uint64_t{1} << 20U;
+[[nodiscard]] constexpr std::uint64_t unit_size_of(Stratum s) {
+  return s == Stratum::exhaustive ? exhaustive_unit_size : unit_size;
+}
 
 }  // namespace ulpgate

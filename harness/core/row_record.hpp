@@ -51,6 +51,11 @@ struct RowRecord {
   [[nodiscard]] auto key() const { return std::tie(function, part, type, stratum); }
 };
 
+// Whether every value of the type was an argument: the largest error is then proven for this libm.
+[[nodiscard]] inline bool is_proof(const RowRecord& r) {
+  return r.stratum == name_of(Stratum::exhaustive) && r.summary.samples == exhaustive_count;
+}
+
 // One record per part; looks the points up that the summaries name.
 [[nodiscard]] std::vector<RowRecord> finish_row(const Plan& plan, const PlanRow& row,
                                                 const std::vector<Summary>& summaries);

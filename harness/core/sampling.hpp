@@ -2,6 +2,7 @@
 // words.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -124,6 +125,12 @@ class Arguments {
   // Writes the `arity` values of point k to out.
   void make(std::uint64_t k, Real* out) const {
     const auto arity = static_cast<std::size_t>(function_.arity);
+    if constexpr (std::same_as<Real, float>) {
+      if (source_.stratum == Stratum::exhaustive) {
+        out[0] = std::bit_cast<float>(static_cast<std::uint32_t>(k));
+        return;
+      }
+    }
     if (source_.list != nullptr) {
       for (std::size_t i = 0; i < arity; ++i) out[i] = from_mpfr<Real>((*source_.list)[k][i]);
       return;

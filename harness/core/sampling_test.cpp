@@ -94,6 +94,24 @@ TEST(Arguments, BinadesReachEveryExponentAndSubnormals) {
   EXPECT_EQ(*exponents.begin(), -1074);
 }
 
+TEST(Arguments, OfTheExhaustiveStratumAreTheBitPatternsOfFloat) {
+  const Arguments<float> arguments(info_of(FunctionId::sin),
+                                   {Stratum::exhaustive, 1, exhaustive_count, nullptr});
+  struct Case {
+    std::uint64_t k;
+    float want;
+  };
+  for (const auto& [k, want] :
+       {Case{0, 0.0F}, Case{1, 0x1p-149F}, Case{0x3f800000, 1.0F}, Case{0xbf800000, -1.0F}}) {
+    float x = -7;
+    arguments.make(k, &x);
+    EXPECT_EQ(x, want);
+  }
+  float x = 0;
+  arguments.make(exhaustive_count - 1, &x);
+  EXPECT_TRUE(std::isnan(x));
+}
+
 TEST(HardArguments, FindTheWorstCaseOfTrigonometricReductionInDouble) {
   // Kahan's and Ng's famous argument: 6381956970095103 * 2^797 lies 4.7e-19 from a multiple of pi/2.
   const auto list = nearest_to_multiples_of_half_pi(float_format<double>(), 1023);

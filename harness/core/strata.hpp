@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -14,6 +15,7 @@ enum class Stratum {
   binades,     // every exponent of the type that the domain allows, random significands, both signs
   edges,  // zeros, infinities, NaN, least and greatest numbers, 1, integers, halves, poles and neighbours
   hard,   // structured: nearest to multiples of pi/2, to zeros, to over- and underflow, powers near 1
+  exhaustive,  // every value of the type; float alone, functions of one argument; never part of "all"
 };
 
 struct StratumInfo {
@@ -22,7 +24,7 @@ struct StratumInfo {
   std::string_view description;
 };
 
-inline constexpr std::array<StratumInfo, 6> all_strata = {{
+inline constexpr std::array<StratumInfo, 7> all_strata = {{
     {Stratum::worst, "worst", "known worst cases from ci/worst_cases, replayed first"},
     {Stratum::uniform, "uniform", "random on (-100, 100), mapped to the domain once"},
     {Stratum::stratified, "stratified",
@@ -30,6 +32,8 @@ inline constexpr std::array<StratumInfo, 6> all_strata = {{
     {Stratum::binades, "binades", "every exponent that the domain allows, random significands, both signs"},
     {Stratum::edges, "edges", "zeros, infinities, NaN, extremes, 1, integers, halves, poles and neighbours"},
     {Stratum::hard, "hard", "nearest to multiples of pi/2, zeros, over- and underflow; powers near 1"},
+    {Stratum::exhaustive, "exhaustive",
+     "all 2^32 values of float, real functions of one argument; a proof; not part of `all`"},
 }};
 
 [[nodiscard]] constexpr std::string_view name_of(Stratum s) {
@@ -43,9 +47,13 @@ inline constexpr std::array<StratumInfo, 6> all_strata = {{
   return std::nullopt;
 }
 
-// A drawn stratum grows with --samples; a listed one has the size of its list.
+// A drawn stratum grows with --samples; a listed one has the size of its list, the exhaustive one that of the
+// type.
 [[nodiscard]] constexpr bool is_drawn(Stratum s) {
   return s == Stratum::uniform || s == Stratum::stratified || s == Stratum::binades;
 }
+
+// Every bit pattern of float: point k of the exhaustive stratum is the float whose bits are k.
+inline constexpr std::uint64_t exhaustive_count = std::uint64_t{1} << 32U;
 
 }  // namespace ulpgate

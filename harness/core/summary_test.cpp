@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "harness/core/summary_text.hpp"
+
 namespace ulpgate {
 namespace {
 
@@ -86,6 +88,38 @@ TEST(UlpSum, IsExactAndTextRoundTrips) {
   UlpSum small;
   for (int i = 0; i < 4; ++i) small.add({0.25});
   EXPECT_EQ(small.mean(4), 0.25);
+}
+
+TEST(SummaryText, ComesBackAsItWas) {
+  Summary s;
+  for (std::uint64_t k = 0; k < 50; ++k)
+    s.add({Outcome::finite, {0.37 * static_cast<double>(k * k)}, static_cast<double>(k), k == 0}, k + 5);
+  s.add({Outcome::nan, {}, 0, false}, 3);
+  s.max_error_over_condition = HUGE_VAL;
+  s.normwise.add(0.1, 17);
+  s.oracle = {7, 1, {1e-300, 12}};
+  for (const Summary& original : {s, Summary{}}) {
+    const std::string text = summary_to_text(original);
+    const auto back = summary_from_text(text);
+    ASSERT_TRUE(back.has_value());
+    EXPECT_EQ(summary_to_text(*back), text);
+    EXPECT_EQ(back->samples, original.samples);
+    EXPECT_EQ(back->outcomes, original.outcomes);
+    EXPECT_EQ(back->first_index, original.first_index);
+    EXPECT_EQ(back->max_error.value, original.max_error.value);
+    EXPECT_EQ(back->max_error.index, original.max_error.index);
+    EXPECT_EQ(back->histogram.counts, original.histogram.counts);
+    EXPECT_EQ(back->sum.to_text(), original.sum.to_text());
+    EXPECT_EQ(back->max_error_over_condition, original.max_error_over_condition);
+    EXPECT_EQ(back->normwise.index, original.normwise.index);
+    EXPECT_EQ(back->oracle.difference.value, original.oracle.difference.value);
+    // No prefix and no longer text is taken for a summary.
+    for (std::size_t n = 0; n < text.size(); ++n) {
+      if (text[n] != ' ') continue;
+      EXPECT_FALSE(summary_from_text(text.substr(0, n)).has_value()) << n;
+    }
+    EXPECT_FALSE(summary_from_text(text + " 1").has_value());
+  }
 }
 
 }  // namespace

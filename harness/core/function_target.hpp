@@ -1,0 +1,223 @@
+// FunctionTarget<Real, Wide>: a function of a type as the target of a search, ranked by a wider type where
+// there is one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "harness/core/argument_lists.hpp"
+#include "harness/core/judging.hpp"
+#include "harness/core/screened_judging.hpp"
+#include "harness/core/search.hpp"
+#include "harness/core/search_positions.hpp"
+#include "kernels/math/function_table.hpp"
+#include "reference/widen.hpp"
+
+namespace ulpgate {
+
+// Stands for "no wider type": points are then ranked by the screened reference.
+struct NoWideType {};
+
+// The error of `got` against `wide`, the same function in a type with at least 11 more bits, in ULP of Real.
+// An estimate to rank by: nothing is reported on its word.  Infinity where one of them is no ordinary number
+// and the other does not say the same.
+template <RealType Real, RealType Wide>
+[[nodiscard]] double estimated_error(const Real& got, const Wide& wide) {
+  using std::abs;
+  using std::ilogb;
+  using std::isfinite;
+  using std::isinf;
+  using std::isnan;
+  using std::ldexp;
+  constexpr FloatFormat format = float_format<Real>();
+  constexpr double suspect = std::numeric_limits<double>::infinity();
+  if (isnan(got) || isnan(wide)) return isnan(got) && isnan(wide) ? 0 : suspect;
+  const Wide w = static_cast<Wide>(got);
+  const bool beyond = isinf(wide) || (wide != Wide(0) && ilogb(wide) > format.exponent_max);
+  if (isinf(got) || beyond) return isinf(got) && beyond && (w > 0) == (wide > 0) ? 0 : suspect;
+  if (wide == Wide(0)) return w == Wide(0) ? 0 : suspect;
+  const long binade = std::max(static_cast<long>(ilogb(wide)), format.exponent_min);
+  const auto error = static_cast<double>(
+      ldexp(Wide(abs(Wide(w - wide))), static_cast<int>(format.precision - 1 - binade)));
+  return w == Wide(0) && error > 1 ? suspect : error;
+}
+
+template <RealType Real, class Wide>
+class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
+ public:
+  using Position = PositionOf<Real>;
+  using Point = SearchPoint<Position>;
+
+  explicit FunctionTarget(const FunctionInfo& f)
+      : function_(f),
+        exponents_(sampled_exponents(f, float_format<Real>())),
+        positions_(exponents_.least),
+        call_(function_table<Real>()[static_cast<std::size_t>(f.id)]) {
+    if constexpr (has_wide) wide_ = function_table<Wide>()[static_cast<std::size_t>(f.id)];
+  }
+
+  [[nodiscard]] std::size_t arity() const override { return static_cast<std::size_t>(function_.arity); }
+
+  [[nodiscard]] SearchBox<Position> domain() const override {
+    SearchBox<Position> box;
+    for (std::size_t i = 0; i < arity(); ++i) {
+      box.low[i] = positions_.of(domain_low(i));
+      box.high[i] = function_.domain[i] == DomainMap::PM1 ? positions_.of(Real(1)) : positions_.of(largest());
+    }
+    return box;
+  }
+
+  // The products of [2^-10, 2^10] and its negative, as far as the domain has them.
+  [[nodiscard]] std::vector<SearchBox<Position>> ordinary_boxes() const {
+    const SearchBox<Position> whole = domain();
+    std::vector<SearchBox<Position>> boxes;
+    for (unsigned signs = 0; signs < (1U << arity()); ++signs) {
+      SearchBox<Position> box = whole;
+      bool inside = true;
+      for (std::size_t i = 0; i < arity(); ++i) {
+        const bool negative = ((signs >> i) & 1U) != 0;
+        box.low[i] = std::max(whole.low[i], positions_.of(negative ? Real(-1024) : Real(1) / Real(1024)));
+        box.high[i] = std::min(whole.high[i], positions_.of(negative ? Real(-1) / Real(1024) : Real(1024)));
+        inside = inside && box.low[i] < box.high[i];
+      }
+      if (inside) boxes.push_back(std::move(box));
+    }
+    return boxes;
+  }
+
+  // Those of the list that lie in the domain.
+  [[nodiscard]] std::vector<Point> seeds(const ArgumentList& list) const {
+    const SearchBox<Position> whole = domain();
+    std::vector<Point> points;
+    for (const auto& values : list) {
+      Point x{};
+      bool good = true;
+      for (std::size_t i = 0; i < values.size() && good; ++i) {
+        good = mpfr_number_p(values[i].get()) != 0;
+        if (good) x[i] = positions_.of(from_mpfr<Real>(values[i]));
+      }
+      if (good && whole.contains(x, arity())) points.push_back(x);
+    }
+    return points;
+  }
+
+  [[nodiscard]] std::vector<MpfrValue> values(const Point& x) const {
+    std::vector<MpfrValue> out;
+    for (std::size_t i = 0; i < arity(); ++i) {
+      out.emplace_back(std::numeric_limits<Real>::digits);
+      to_mpfr(out.back().get(), positions_.at(x[i]));
+    }
+    return out;
+  }
+
+  void rank(std::span<const Point> points, std::span<double> errors) const override {
+    thread_local Buffers b;
+    evaluate(points, b);
+    if constexpr (has_wide) {
+      if (!distrusted_) return rank_by_wide(points.size(), b, errors);
+    }
+    b.judgements.resize(points.size() * parts());
+    // Never index 0 of a run: the share that is always checked belongs to measurements.
+    screened_.judge({function_, b.args, b.results, b.threw, 1}, b.judgements);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      errors[i] = ranked(worst(std::span(b.judgements).subspan(i * parts(), parts())));
+  }
+
+  [[nodiscard]] Judgement confirm(const Point& x) const override {
+    Buffers b;
+    evaluate({&x, 1}, b);
+    b.judgements.resize(parts());
+    full_.judge({function_, b.args, b.results, b.threw}, b.judgements);
+    return worst(b.judgements);
+  }
+
+  void distrust_estimates() override { distrusted_ = true; }
+
+ private:
+  static constexpr bool has_wide = !std::same_as<Wide, NoWideType>;
+  using WideReal = std::conditional_t<has_wide, Wide, Real>;
+
+  struct Buffers {
+    std::vector<Real> args;
+    std::vector<Real> results;
+    std::vector<std::uint8_t> threw;
+    std::vector<WideReal> wide_args;
+    std::vector<WideReal> wide_results;
+    std::vector<std::uint8_t> wide_threw;
+    std::vector<Judgement> judgements;
+  };
+
+  [[nodiscard]] std::size_t parts() const { return static_cast<std::size_t>(function_.parts); }
+
+  // A mismatch of any part, else the part with the largest error.
+  static Judgement worst(std::span<const Judgement> parts) {
+    const auto mismatch = std::ranges::find_if(
+        parts, [](const Judgement& j) { return j.outcome != Outcome::finite; });
+    if (mismatch != parts.end()) return *mismatch;
+    return *std::ranges::max_element(parts, {}, [](const Judgement& j) { return j.error.value; });
+  }
+  static double ranked(const Judgement& j) {
+    return j.outcome == Outcome::finite ? j.error.value : std::numeric_limits<double>::infinity();
+  }
+
+  [[nodiscard]] Real largest() const {
+    MpfrValue v(std::numeric_limits<Real>::digits);
+    mpfr_set_si_2exp(v, 1, exponents_.greatest + 1, MPFR_RNDN);
+    mpfr_nextbelow(v);
+    return from_mpfr<Real>(v);
+  }
+  // The least argument of the mathematical domain.  The table's maps keep random arguments where they say
+  // most; lgamma and pow are defined beyond.
+  [[nodiscard]] Real domain_low(std::size_t slot) const {
+    if (function_.id == FunctionId::lgamma || function_.id == FunctionId::pow) return Real(-largest());
+    switch (function_.domain[slot]) {
+      case DomainMap::PM1:
+      case DomainMap::GTM1:
+        return Real(-1);
+      case DomainMap::GT1:
+        return Real(1);
+      case DomainMap::GT0:
+        return Real(0);
+      default:
+        return Real(-largest());
+    }
+  }
+
+  void evaluate(std::span<const Point> points, Buffers& b) const {
+    b.args.resize(points.size() * arity());
+    b.results.resize(points.size() * parts());
+    b.threw.assign(points.size(), 0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t j = 0; j < arity(); ++j) b.args[i * arity() + j] = positions_.at(points[i][j]);
+    }
+    call_(b.args.data(), b.results.data(), b.threw.data(), points.size());
+  }
+
+  void rank_by_wide(std::size_t count, Buffers& b, std::span<double> errors) const {
+    if constexpr (has_wide) {
+      b.wide_args.resize(count * arity());
+      b.wide_results.resize(count * parts());
+      b.wide_threw.assign(count, 0);
+      for (std::size_t i = 0; i < b.wide_args.size(); ++i) b.wide_args[i] = widen<Wide>(b.args[i]);
+      wide_(b.wide_args.data(), b.wide_results.data(), b.wide_threw.data(), count);
+      for (std::size_t i = 0; i < count; ++i) {
+        double error = b.threw[i] != 0 ? std::numeric_limits<double>::infinity() : 0;
+        for (std::size_t j = i * parts(); j < (i + 1) * parts() && b.threw[i] == 0; ++j)
+          error = std::max(error, estimated_error<Real>(b.results[j], b.wide_results[j]));
+        errors[i] = error;
+      }
+    }
+  }
+
+  FunctionInfo function_;
+  ExponentRange exponents_;
+  Positions<Real> positions_;
+  BatchFunction<Real> call_;
+  BatchFunction<WideReal> wide_ = nullptr;
+  bool distrusted_ = false;
+  FullJudging<Real> full_;
+  ScreenedJudging<Real> screened_;
+};
+
+}  // namespace ulpgate
