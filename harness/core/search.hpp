@@ -27,6 +27,8 @@ class SearchTarget {
   virtual void rank(std::span<const SearchPoint<Position>> points, std::span<double> errors) const = 0;
   // The proven judgement: a mismatch of any part, else the part with the largest error.
   [[nodiscard]] virtual Judgement confirm(const SearchPoint<Position>& x) const = 0;
+  // Points within 2^this many positions of each other are ranked faster together than one by one.
+  [[nodiscard]] virtual int cheap_scale() const = 0;
   // Estimates turned out to be wrong too often: rank by proven errors from now on.
   virtual void distrust_estimates() = 0;
 };
