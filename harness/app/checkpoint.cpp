@@ -149,16 +149,15 @@ void Checkpoint::compact(const ShardUnits& units, const UnitProgress& progress) 
     if (progress.done[p]) positions[units[p].row].push_back(p);
   }
   std::string text = header_line(identity_);
-  for (const auto& [row, done] : positions)
-    text += with_checksum(row_payload(row, progress.rows[row], done));
+  for (const auto& [row, done] : positions) text += with_checksum(row_payload(row, progress.rows[row], done));
   write_file(directory_ / done_file, text);
   // The units of the old log are all in done.txt now.
   if (log_ >= 0) ::close(log_);
   write_file(directory_ / log_file, header_line(identity_));
   log_ = ::open((directory_ / log_file).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (log_ < 0) {
-    throw Failure(ExitCode::environment, fmt::format("cannot open {}: {}", (directory_ / log_file).string(),
-                                                     std::strerror(errno)));
+    throw Failure(ExitCode::environment,
+                  fmt::format("cannot open {}: {}", (directory_ / log_file).string(), std::strerror(errno)));
   }
   log_size_ = 0;
 }

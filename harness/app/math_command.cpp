@@ -123,8 +123,8 @@ ExitCode run_math(const MathOptions& o) {
   if (result.complete) checkpoint.remove();
   if (o.json) fmt::print("{}", text);
   if (!result.complete) {
-    throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}; --resume goes on",
-                                                    out.string()));
+    throw Failure(ExitCode::incomplete,
+                  fmt::format("interrupted; what was done is in {}; --resume goes on", out.string()));
   }
   fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(),
              (out / math_records_file).string(), plan.hash());

@@ -166,13 +166,13 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, Refer
       ++group;
     costs.push_back({group, prior_cost(row.engine->descriptor()), 0});
   }
-  const UnitJob job{
-      "math", plan.units(), std::move(costs), [&](const WorkUnit& unit) {
-        const PlanRow& row = plan.rows()[unit.row];
-        const CrashPlace place(row.function.name, row.engine->descriptor().token,
-                               name_of(row.source.stratum));
-        return row.engine->evaluate(row.function, row.source, unit.first, unit.last, mode, *hints[unit.row]);
-      }};
+  const UnitJob job{"math", plan.units(), std::move(costs), [&](const WorkUnit& unit) {
+                      const PlanRow& row = plan.rows()[unit.row];
+                      const CrashPlace place(row.function.name, row.engine->descriptor().token,
+                                             name_of(row.source.stratum));
+                      return row.engine->evaluate(row.function, row.source, unit.first, unit.last, mode,
+                                                  *hints[unit.row]);
+                    }};
   const UnitSummaries done = run_units(job, shard, threads, checkpoint);
   RunResult result;
   result.complete = done.complete;

@@ -29,7 +29,8 @@ struct UnitSummaries {
 };
 
 // Runs the units of the shard (unit i belongs to shard i mod count).  The result does not depend on
-// `threads`, nor on which units a checkpoint had.  A ReferenceDisagreement becomes a Failure with exit code 1.
+// `threads`, nor on which units a checkpoint had.  A ReferenceDisagreement becomes a Failure with exit
+// code 1.
 [[nodiscard]] UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads,
                                       Checkpoint& checkpoint);
 

@@ -39,8 +39,8 @@ template <RealType Real, RealType Wide>
   if (isinf(got) || beyond) return isinf(got) && beyond && (w > 0) == (wide > 0) ? 0 : suspect;
   if (wide == Wide(0)) return w == Wide(0) ? 0 : suspect;
   const long binade = std::max(static_cast<long>(ilogb(wide)), format.exponent_min);
-  const auto error = static_cast<double>(
-      ldexp(Wide(abs(Wide(w - wide))), static_cast<int>(format.precision - 1 - binade)));
+  const auto error =
+      static_cast<double>(ldexp(Wide(abs(Wide(w - wide))), static_cast<int>(format.precision - 1 - binade)));
   return w == Wide(0) && error > 1 ? suspect : error;
 }
 
@@ -157,8 +157,8 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
 
   // A mismatch of any part, else the part with the largest error.
   static Judgement worst(std::span<const Judgement> parts) {
-    const auto mismatch = std::ranges::find_if(
-        parts, [](const Judgement& j) { return j.outcome != Outcome::finite; });
+    const auto mismatch =
+        std::ranges::find_if(parts, [](const Judgement& j) { return j.outcome != Outcome::finite; });
     if (mismatch != parts.end()) return *mismatch;
     return *std::ranges::max_element(parts, {}, [](const Judgement& j) { return j.error.value; });
   }
@@ -229,8 +229,8 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
     std::array<TwoPart<Real>, LocalPolynomial<Real>::nodes + LocalPolynomial<Real>::checks> values;
     precise_values(polynomial.choose(*least, *greatest), b, values);
     // All in one binade or two neighbouring ones, far from the ends of the range.
-    const auto [low, high] = std::ranges::minmax_element(
-        values, {}, [](const TwoPart<Real>& v) { return Real(abs(v.high)); });
+    const auto [low, high] =
+        std::ranges::minmax_element(values, {}, [](const TwoPart<Real>& v) { return Real(abs(v.high)); });
     const Real first = abs(low->high);
     if (!isfinite(high->high) || !(first > 0) || (low->high > 0) != (high->high > 0)) return false;
     using std::ilogb;

@@ -32,10 +32,9 @@ class LocalPolynomial {
   std::span<const Real> choose(const Real& low, const Real& high) {
     half_ = (high - low) / Real(2);
     const Real middle = low + half_;
-    // cos(k pi / 7) outwards and inwards in turn, where divided differences are stable; then the checks.  Where
-    // the nodes lie exactly does not matter.
-    constexpr std::array<double, nodes + checks> t = {0,    0.97, -0.97, 0.78, -0.78,
-                                                      0.43, -0.43, 0.61, -0.89};
+    // cos(k pi / 7) outwards and inwards in turn, where divided differences are stable; then the checks.
+    // Where the nodes lie exactly does not matter.
+    constexpr std::array<double, nodes + checks> t = {0, 0.97, -0.97, 0.78, -0.78, 0.43, -0.43, 0.61, -0.89};
     for (std::size_t i = 0; i < t.size(); ++i) {
       x_[i] = middle + half_ * Real(t[i]);
       t_[i] = (x_[i] - middle) / half_;

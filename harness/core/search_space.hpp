@@ -56,7 +56,8 @@ template <class Integer>
     return w == 0 ? 0 : static_cast<int>(msb(w)) + 1;
   } else {
     const auto high = static_cast<std::uint64_t>(w >> 64);
-    return high != 0 ? 64 + std::bit_width(high) : std::bit_width(static_cast<std::uint64_t>(w));
+    const int low_bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(w)));
+    return high != 0 ? 64 + static_cast<int>(std::bit_width(high)) : low_bits;
   }
 }
 
