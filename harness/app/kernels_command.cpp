@@ -41,8 +41,9 @@ std::vector<RowRecord> measure(const KernelPlan& plan, const Shard& shard, unsig
     hints.push_back(std::make_unique<RowHint>(static_cast<int>(row.kernel->outputs.size())));
   std::vector<CostModel::Row> costs;
   for (const auto& row : plan.rows()) {
-    const auto type = static_cast<std::size_t>(
-        std::ranges::find(plan.request().types, row.engine->descriptor().token) - plan.request().types.begin());
+    const auto type =
+        static_cast<std::size_t>(std::ranges::find(plan.request().types, row.engine->descriptor().token) -
+                                 plan.request().types.begin());
     const auto group = type * dem::all_kernels().size() + static_cast<std::size_t>(row.kernel->id);
     costs.push_back({group, prior_cost(row.engine->descriptor()), 0});
   }
@@ -117,8 +118,8 @@ ExitCode run_kernels(const KernelOptions& o) {
   if (complete) checkpoint.remove();
   if (o.json) fmt::print("{}", text);
   if (!complete) {
-    throw Failure(ExitCode::incomplete, fmt::format("interrupted; what was done is in {}; --resume goes on",
-                                                    out.string()));
+    throw Failure(ExitCode::incomplete,
+                  fmt::format("interrupted; what was done is in {}; --resume goes on", out.string()));
   }
   fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", records.size(),
              (out / kernel_records_file).string(), plan.hash());

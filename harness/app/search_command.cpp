@@ -69,8 +69,8 @@ bool hunt(const SearchOptions& o, FunctionSearch& search, unsigned threads, cons
     if (search.best_error_ulp() >= 0 && now != shown) {
       const Point point = engine.point(f, search.best().args);
       progress.clear();
-      fmt::print(stderr, "ulpgate: {} ULP at {} after {} evaluations\n", now,
-                 fmt::join(point.args_hex, " "), search.evaluations());
+      fmt::print(stderr, "ulpgate: {} ULP at {} after {} evaluations\n", now, fmt::join(point.args_hex, " "),
+                 search.evaluations());
       shown = now;
     }
     if (o.evaluations != 0) {
@@ -164,7 +164,8 @@ ExitCode run_search(const SearchOptions& o) {
       fmt::print(stderr, "ulpgate: to keep it, add to ci/worst_cases/{}.txt (--worst-cases DIR does): {}\n",
                  o.type, line);
     } else {
-      fmt::print(stderr, "ulpgate: {}\n", offer_worst_case(o.worst_cases, f, o.type, best.args, best.error_ulp));
+      fmt::print(stderr, "ulpgate: {}\n",
+                 offer_worst_case(o.worst_cases, f, o.type, best.args, best.error_ulp));
     }
   }
   if (!complete) throw Failure(ExitCode::incomplete, "interrupted; what was found so far stands above");
@@ -174,7 +175,8 @@ ExitCode run_search(const SearchOptions& o) {
 }  // namespace
 
 void add_search_command(CLI::App& app, Action& action) {
-  auto* search = app.add_subcommand("search", "Hunt for the largest error of a function over its whole domain");
+  auto* search =
+      app.add_subcommand("search", "Hunt for the largest error of a function over its whole domain");
   auto o = std::make_shared<SearchOptions>();
   search->add_option("FUNCTION", o->function, "a real or complex function")->required();
   search->add_option("TYPE", o->type, "a type")->required();
@@ -182,9 +184,10 @@ void add_search_command(CLI::App& app, Action& action) {
                       ->capture_default_str()
                       ->check(CLI::Range(0.0, 1e9));
   search
-      ->add_option("--evaluations", o->evaluations,
-                   "evaluations of the function instead of seconds: the result then depends on them and on the "
-                   "seed alone")
+      ->add_option(
+          "--evaluations", o->evaluations,
+          "evaluations of the function instead of seconds: the result then depends on them and on the "
+          "seed alone")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48U))
       ->excludes(seconds);
   search->add_option("--seed", o->seed, "seed of the hunt")->capture_default_str();
@@ -192,9 +195,10 @@ void add_search_command(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(CLI::Range(0U, 4096U));
   search->add_option("--out", o->out, "file for the result as JSON");
-  search->add_option("--worst-cases", o->worst_cases,
-                     "directory of worst cases: what was found is added to TYPE.txt unless that holds a worse "
-                     "one of the function");
+  search->add_option(
+      "--worst-cases", o->worst_cases,
+      "directory of worst cases: what was found is added to TYPE.txt unless that holds a worse "
+      "one of the function");
   search->add_flag("--json", o->json, "print JSON");
   search->callback([=, &action] { action = [=] { return run_search(*o); }; });
 }

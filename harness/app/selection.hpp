@@ -15,8 +15,8 @@ namespace ulpgate::app {
 [[nodiscard]] std::vector<FunctionId> select_functions(const std::string& text);
 [[nodiscard]] std::vector<std::string> select_types(const std::string& text);
 [[nodiscard]] std::vector<Stratum> select_strata(const std::string& text);
-// Where the exhaustive stratum was asked for: types and functions that it cannot take are a Failure when named
-// one by one, and left out when they came with "all", "real" and the like.
+// Where the exhaustive stratum was asked for: types and functions that it cannot take are a Failure when
+// named one by one, and left out when they came with "all", "real" and the like.
 void narrow_to_exhaustible(const std::string& functions, const std::string& types, PlanRequest& request);
 [[nodiscard]] std::vector<dem::KernelId> select_kernels(const std::string& text);
 [[nodiscard]] std::vector<StateStratum> select_state_strata(const std::string& text);

@@ -7,7 +7,8 @@ namespace ulpgate {
 namespace {
 
 TEST(CostModel, TakesTheBestKnownCostOfEveryRow) {
-  // Rows 0 and 1 are one function and type; row 2 another that is 10 times dearer by its prior; row 3 a third.
+  // Rows 0 and 1 are one function and type; row 2 another that is 10 times dearer by its prior; row 3 a
+  // third.
   CostModel costs({{0, 1, 1000}, {0, 1, 1000}, {1, 10, 1000}, {2, 1, 100}});
   EXPECT_FALSE(costs.is_known(0));
   EXPECT_EQ(costs.remaining_s(), 0) << "nothing is known yet";

@@ -13,8 +13,8 @@ class TypedSearch final : public FunctionSearch {
 
   TypedSearch(const FunctionInfo& f, std::uint64_t seed)
       : target_(f),
-        search_(target_, target_.ordinary_boxes(), target_.seeds(hard_arguments(f, float_format<Real>())), seed,
-                size(f)) {}
+        search_(target_, target_.ordinary_boxes(), target_.seeds(hard_arguments(f, float_format<Real>())),
+                seed, size(f)) {}
 
   std::size_t begin_round(std::uint64_t most) override { return search_.begin_round(most); }
   void run_batch(std::size_t batch) override { search_.run_batch(batch); }
@@ -44,7 +44,7 @@ class TypedSearch final : public FunctionSearch {
   // Rounds of a few hundredths of a second: what is found steers what is tried next.
   static SearchSize size(const FunctionInfo& f) {
     if (f.function_class != FunctionClass::real) return {1U << 12U};
-    return {std::same_as<Wide, NoWideType> ? std::size_t{1} << 12U : std::size_t{1} << 16U};
+    return {std::same_as<Wide, NoWideType> || f.arity > 1 ? std::size_t{1} << 14U : std::size_t{1} << 18U};
   }
 
   FunctionTarget<Real, Wide> target_;

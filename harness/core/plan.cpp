@@ -37,8 +37,8 @@ std::string plan_text(const PlanRequest& r) {
       "ulpgate math plan\narguments 1\nerrors 2\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata "
       "{}\nfunctions {}\n"
       "reference full\nworst_cases {:016x}\n",
-      units, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","),
-      fmt::join(functions, ","), fnv1a(r.worst_cases_text));
+      units, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","), fmt::join(functions, ","),
+      fnv1a(r.worst_cases_text));
 }
 
 }  // namespace

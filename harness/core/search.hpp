@@ -6,30 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "harness/core/search_space.hpp"
-#include "reference/ulp.hpp"
+#include "harness/core/search_elites.hpp"
+#include "harness/core/search_target.hpp"
 
 namespace ulpgate {
-
-// What is searched.
-template <class Position>
-class SearchTarget {
- public:
-  SearchTarget() = default;
-  SearchTarget(const SearchTarget&) = delete;
-  SearchTarget& operator=(const SearchTarget&) = delete;
-  virtual ~SearchTarget() = default;
-  [[nodiscard]] virtual std::size_t arity() const = 0;
-  // The whole domain.
-  [[nodiscard]] virtual SearchBox<Position> domain() const = 0;
-  // Estimated errors in ULP, to rank points by; infinity where a mismatch is suspected.  Called from several
-  // threads.
-  virtual void rank(std::span<const SearchPoint<Position>> points, std::span<double> errors) const = 0;
-  // The proven judgement: a mismatch of any part, else the part with the largest error.
-  [[nodiscard]] virtual Judgement confirm(const SearchPoint<Position>& x) const = 0;
-  // Estimates turned out to be wrong too often: rank by proven errors from now on.
-  virtual void distrust_estimates() = 0;
-};
 
 struct SearchSize {
   std::size_t round = 1U << 16U;  // evaluations of one round, at least 512
@@ -43,8 +23,8 @@ struct SearchSize {
 //  * bisection with a beam: every box is cut in four, some points of each are evaluated, and the boxes with
 //    the largest errors go on until they hold a few neighbouring numbers; then the beam starts again, in turn
 //    from the whole domain, from ordinary magnitudes and from around a number found;
-//  * neighbourhoods: points at random distances from the best, on scales that a reward for success chooses,
-//    from the last bits up;
+//  * neighbourhoods: points at random distances from the best, on scales that a reward for success chooses;
+//  * climbs: from the best points of this round, through their low bits, for as long as they get higher;
 //  * random points of the whole domain.
 template <class Position>
 class Search {
@@ -67,6 +47,7 @@ class Search {
       : target_(target),
         arity_(target.arity()),
         domain_(target.domain()),
+        elites_(domain_, arity_),
         ordinary_(std::move(ordinary)),
         seeds_(std::move(seeds)),
         seed_(seed),
@@ -74,7 +55,8 @@ class Search {
         scales_(static_cast<std::size_t>(greatest_scale()) + 1, 1.0) {
     // The same evaluations on many boxes with few points each, or on few with many.
     for (const std::size_t samples : {256U, 64U, 16U, 64U}) {
-      const std::size_t share = std::max<std::size_t>(size_.round / 8, 4);
+      // Points of a box lie far apart and cost most: large rounds, of cheap points, give them less.
+      const std::size_t share = std::max<std::size_t>(size_.round / (size_.round > 65536 ? 64 : 16), 4);
       const std::size_t n = std::min(samples, share / 4);
       beams_.push_back({std::max<std::size_t>(share / (4 * n), 1), n, {}, beams_.size()});
     }
@@ -86,6 +68,7 @@ class Search {
     if (evaluations_ == 0) add_seed_batches();
     if (batches_.empty()) {
       add_beam_batches();
+      add_climb_batches();
       add_neighbourhood_batches();
       add_random_batches();
     }
@@ -128,6 +111,7 @@ class Search {
     for (const auto& b : batches_) evaluations_ += b.count;
     confirm_best();
     confirm_suspects();
+    advance_climbers();
     advance_beams();
     for (auto& weight : scales_) weight = 1 + 0.98 * (weight - 1);
   }
@@ -137,7 +121,7 @@ class Search {
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
  private:
-  enum class Kind { seeds, box, neighbourhood };
+  enum class Kind { seeds, box, neighbourhood, climb };
   static constexpr std::size_t no_beam = ~std::size_t{0};
   struct Batch {
     Kind kind = Kind::box;
@@ -146,8 +130,10 @@ class Search {
     std::size_t first = 0;  // of the seeds
     std::size_t beam = no_beam;
     std::array<int, max_arity> scale{};  // of the distances, by argument; -1: this argument stays
+    std::array<int, max_arity> reach{};  // of the points from their own centre
     std::uint64_t key = 0;
     bool improved = false;
+    double parent = 0;  // error of the centre
     std::vector<SearchPoint<Position>> suspects;
   };
   struct Beam {
@@ -156,14 +142,10 @@ class Search {
     std::vector<SearchBox<Position>> boxes;
     std::size_t restarts;
   };
-  // A confirmed point; few are kept of one neighbourhood, so that the search does not end in the first one.
-  struct Elite {
-    SearchPoint<Position> at;
-    double error;
-  };
-  static constexpr std::size_t elites_kept = 64;
-  static constexpr std::size_t elites_of_a_cell = 6;
-  static constexpr std::size_t confirmed_a_round = 24;
+  // Nearer than that a climb looks at every number.
+  static constexpr std::size_t least_scale = 6;
+  static constexpr std::size_t climb_batch = 128;
+  static constexpr std::size_t confirmed_a_round = 8;
   static constexpr std::size_t suspects_a_round = 4;
 
   static std::uint64_t mixed(std::uint64_t key) { return SearchRandom(key).word(); }
@@ -180,12 +162,21 @@ class Search {
     if (b.kind == Kind::box) return b.box.draw(random, arity_);
     SearchPoint<Position> x = b.box.best;
     for (std::size_t a = 0; a < arity_; ++a) {
+      if (b.kind == Kind::climb) {
+        if (arity_ > 1 && (random.word() & 1U) != 0) continue;
+        x[a] = near(x[a], climb_scale(random), a, random);
+        continue;
+      }
       if (b.scale[a] < 0) continue;
-      const Width<Position> reach = (Width<Position>(1) << b.scale[a]);
-      const Width<Position> by = random.up_to(reach);
-      x[a] = moved_within(x[a], by, (random.word() & 1U) != 0, domain_.low[a], domain_.high[a]);
+      x[a] = near(x[a], b.reach[a], a, random);
     }
     return x;
+  }
+
+  // A position at most 2^scale away.
+  Position near(const Position& x, int scale, std::size_t a, SearchRandom& random) const {
+    const Width<Position> by = random.up_to(Width<Position>(Width<Position>(1) << scale));
+    return moved_within(x, by, (random.word() & 1U) != 0, domain_.low[a], domain_.high[a]);
   }
 
   void add_seed_batches() {
@@ -220,7 +211,7 @@ class Search {
     SearchBox<Position> root = domain_;
     const std::size_t turn = beam.restarts++ % 4;
     if (turn == 1) root = ordinary_[beam.restarts / 4 % ordinary_.size()];
-    if (turn > 1 && !elites_.empty()) root = around(chosen_elite(random), random);
+    if (turn > 1 && !elites_.empty()) root = around(elites_.chosen(random), random);
     root.error = -1;
     beam.boxes = {root};
     while (beam.boxes.size() * 4 <= 4 * beam.keep) {
@@ -231,7 +222,7 @@ class Search {
     }
   }
 
-  SearchBox<Position> around(const Elite& elite, SearchRandom& random) const {
+  SearchBox<Position> around(const SearchElite<Position>& elite, SearchRandom& random) const {
     SearchBox<Position> box = domain_;
     for (std::size_t a = 0; a < arity_; ++a) {
       const Width<Position> width = width_of(domain_.low[a], domain_.high[a]);
@@ -242,38 +233,77 @@ class Search {
     return box;
   }
 
-  const Elite& chosen_elite(SearchRandom& random) const {
-    // The better half of what is left, again and again: the best is chosen most often.
-    std::size_t n = elites_.size();
-    while (n > 1 && (random.word() & 1U) != 0) n = (n + 1) / 2;
-    return elites_[random.below(n)];
-  }
-
   int chosen_scale(SearchRandom& random) const {
     double total = 0;
-    for (const double w : scales_) total += w;
+    for (std::size_t j = least_scale; j < scales_.size(); ++j) total += scales_[j];
     double at = std::ldexp(static_cast<double>(random.word() >> 11U), -53) * total;
-    for (std::size_t j = 0; j < scales_.size(); ++j) {
+    for (std::size_t j = least_scale; j < scales_.size(); ++j) {
       at -= scales_[j];
       if (at < 0) return static_cast<int>(j);
     }
     return static_cast<int>(scales_.size()) - 1;
   }
 
+  // Small scales more often than large ones, up to half of the bits of a significand.
+  int climb_scale(SearchRandom& random) const {
+    const auto most = static_cast<std::uint64_t>(std::max(target_.significand_bits() / 2, 2));
+    return static_cast<int>(random.below(random.below(most) + 1)) + 1;
+  }
+
+  void add_climb_batches() {
+    for (auto& climber : climbers_) {
+      Batch b;
+      b.kind = Kind::climb;
+      b.box.best = climber.at;
+      b.box.error = climber.error;
+      b.parent = climber.error;
+      b.count = climb_batch;
+      batches_.push_back(std::move(b));
+    }
+    climbers_.clear();
+  }
+
+  // Who got higher goes on; others rest, and the best of this round's other batches start in their places.
+  void advance_climbers() {
+    const std::size_t places = size_.round * 3 / 8 / climb_batch;
+    std::vector<std::size_t> fresh;
+    for (std::size_t i = 0; i < batches_.size(); ++i) {
+      const Batch& b = batches_[i];
+      if (!b.improved || b.box.error < 0) continue;
+      if (b.kind == Kind::climb) {
+        climbers_.push_back({b.box.best, b.box.error});
+      } else {
+        fresh.push_back(i);
+      }
+    }
+    std::ranges::stable_sort(fresh, std::ranges::greater{},
+                             [&](std::size_t i) { return batches_[i].box.error; });
+    for (const std::size_t i : fresh) {
+      if (climbers_.size() >= places) break;
+      climbers_.push_back({batches_[i].box.best, batches_[i].box.error});
+    }
+  }
+
   void add_neighbourhood_batches() {
     if (elites_.empty()) return;
-    constexpr std::size_t batch = 64;
+    const std::size_t batch = std::min<std::size_t>(256, std::max<std::size_t>(size_.round / 64, 16));
     SearchRandom random(mixed(seed_ + 0xe117e) + round_);
-    for (std::size_t done = 0; done + batch <= size_.round * 7 / 16; done += batch) {
-      const Elite& elite = chosen_elite(random);
+    for (std::size_t done = 0; done + batch <= size_.round / 2; done += batch) {
+      const SearchElite<Position>& elite = elites_.chosen(random);
       Batch b;
       b.kind = Kind::neighbourhood;
       b.box.best = elite.at;
+      b.parent = elite.error;
       b.count = batch;
       const std::size_t sure = random.below(arity_);
       for (std::size_t a = 0; a < arity_; ++a) {
         const bool moves = a == sure || (random.word() & 1U) != 0;
         b.scale[a] = moves ? chosen_scale(random) : -1;
+        b.reach[a] = b.scale[a];
+        if (arity_ > 1 || b.scale[a] <= target_.cheap_scale()) continue;
+        // Far away, but close together.
+        b.box.best[a] = near(b.box.best[a], b.scale[a], a, random);
+        b.reach[a] = std::max(target_.cheap_scale() - static_cast<int>(random.below(12)), 1);
       }
       batches_.push_back(std::move(b));
     }
@@ -281,7 +311,7 @@ class Search {
 
   void add_random_batches() {
     constexpr std::size_t batch = 64;
-    for (std::size_t done = 0; done + batch <= size_.round / 16; done += batch) {
+    for (std::size_t done = 0; done + batch <= size_.round / 32; done += batch) {
       Batch b;
       const std::size_t turn = done / batch;
       b.box = turn % 2 == 0 ? domain_ : ordinary_[turn / 2 % ordinary_.size()];
@@ -294,17 +324,18 @@ class Search {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < batches_.size(); ++i)
       if (batches_[i].improved) order.push_back(i);
-    std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t i) { return batches_[i].box.error; });
-    if (order.size() > confirmed_a_round) order.resize(confirmed_a_round);
+    std::ranges::stable_sort(order, std::ranges::greater{},
+                             [&](std::size_t i) { return batches_[i].box.error; });
+    std::size_t confirmed = 0;
     for (const std::size_t i : order) {
       Batch& b = batches_[i];
-      if (!would_be_elite(b.box.error)) break;
-      if (std::ranges::any_of(elites_, [&](const Elite& e) { return e.at == b.box.best; })) continue;
+      if (!elites_.would_take(b.box.best, b.box.error)) continue;
+      if (confirmed++ >= confirmed_a_round) break;
       const double estimate = b.box.error;
       b.box.error = take(b.box.best);
       ++confirmations_;
       if (!(std::fabs(estimate - b.box.error) <= 0.02 + 0.02 * std::fabs(b.box.error))) ++lies_;
-      if (b.kind == Kind::neighbourhood && !elites_.empty() && b.box.error >= elites_.back().error) {
+      if (b.kind == Kind::neighbourhood && b.box.error > b.parent) {
         for (const int scale : b.scale)
           if (scale >= 0) scales_[static_cast<std::size_t>(scale)] += 1;
       }
@@ -317,10 +348,6 @@ class Search {
     }
   }
 
-  [[nodiscard]] bool would_be_elite(double error) const {
-    return elites_.size() < elites_kept || error > elites_.back().error;
-  }
-
   // Confirms a point, and keeps it where it deserves it; the proven error, -1 for a mismatch.
   double take(const SearchPoint<Position>& at) {
     const Judgement judgement = target_.confirm(at);
@@ -331,33 +358,8 @@ class Search {
     }
     const double error = judgement.error.value;
     if (error > best_.error) best_ = {at, error, judgement.distance, evaluations_};
-    const auto it = std::ranges::upper_bound(elites_, error, std::ranges::greater{}, &Elite::error);
-    elites_.insert(it, {at, error});
-    thin_out(at);
-    if (elites_.size() > elites_kept) elites_.pop_back();
+    elites_.add({at, error});
     return error;
-  }
-
-  // Drops the least of a neighbourhood that holds too many.
-  void thin_out(const SearchPoint<Position>& at) {
-    std::size_t same = 0;
-    std::size_t last = 0;
-    for (std::size_t i = 0; i < elites_.size(); ++i) {
-      if (!is_neighbour(elites_[i].at, at)) continue;
-      ++same;
-      last = i;
-    }
-    if (same > elites_of_a_cell) elites_.erase(elites_.begin() + static_cast<std::ptrdiff_t>(last));
-  }
-
-  // Within 2^-14 of the domain's positions in every argument: less than a binade of double.
-  bool is_neighbour(const SearchPoint<Position>& a, const SearchPoint<Position>& b) const {
-    for (std::size_t i = 0; i < arity_; ++i) {
-      const Width<Position> reach = width_of(domain_.low[i], domain_.high[i]) >> 14;
-      const Width<Position> apart = a[i] < b[i] ? width_of(a[i], b[i]) : width_of(b[i], a[i]);
-      if (apart > reach) return false;
-    }
-    return true;
   }
 
   void confirm_suspects() {
@@ -390,6 +392,7 @@ class Search {
   SearchTarget<Position>& target_;
   std::size_t arity_;
   SearchBox<Position> domain_;
+  SearchElites<Position> elites_;
   std::vector<SearchBox<Position>> ordinary_;
   std::vector<SearchPoint<Position>> seeds_;
   std::uint64_t seed_;
@@ -401,8 +404,8 @@ class Search {
   bool distrusted_ = false;
   std::vector<Batch> batches_;
   std::vector<Beam> beams_;
-  std::vector<Elite> elites_;  // by falling error
   std::vector<double> scales_;
+  std::vector<SearchElite<Position>> climbers_;
   Found best_;
   std::map<Outcome, Mismatch> mismatches_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 #include <vector>
@@ -54,9 +55,9 @@ template <class Integer>
   if constexpr (requires { msb(w); }) {
     return w == 0 ? 0 : static_cast<int>(msb(w)) + 1;
   } else {
-    int bits = 0;
-    for (; w != 0; w >>= 1) ++bits;
-    return bits;
+    const auto high = static_cast<std::uint64_t>(w >> 64);
+    const int low_bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(w)));
+    return high != 0 ? 64 + static_cast<int>(std::bit_width(high)) : low_bits;
   }
 }
 

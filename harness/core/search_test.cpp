@@ -15,12 +15,11 @@ namespace {
 
 template <class Real>
 class PositionsOf : public testing::Test {};
-using SearchedTypes =
-    testing::Types<float, double, long double,
+using SearchedTypes = testing::Types<float, double, long double,
 #ifdef ULPGATE_HAVE_FLOAT128
-                   Float128Real,
+                                     Float128Real,
 #endif
-                   MpfrReal<62>, CppBinFloatReal<62>>;
+                                     MpfrReal<62>, CppBinFloatReal<62>>;
 TYPED_TEST_SUITE(PositionsOf, SearchedTypes);
 
 TYPED_TEST(PositionsOf, AreInOrderAndExactBothWays) {
@@ -66,7 +65,8 @@ TEST(Positions, OfTheWholeOfBinary128FitTheirWidth) {
 #endif
 }
 
-// A bottomless sea with small waves, and one spike of a width of 2^-30 of the space that rises towards its top.
+// A bottomless sea with small waves, and one spike of a width of 2^-30 of the space that rises towards its
+// top.
 class PlantedSpike final : public SearchTarget<__int128> {
  public:
   explicit PlantedSpike(std::size_t arity) : arity_(arity) {}
@@ -101,6 +101,8 @@ class PlantedSpike final : public SearchTarget<__int128> {
     if (x[0] % 1000 == 7) return {Outcome::nan, {}, 0, false};
     return {Outcome::finite, {error(x)}, 1, false};
   }
+  int cheap_scale() const override { return 62; }
+  int significand_bits() const override { return 53; }
   void distrust_estimates() override { ADD_FAILURE() << "estimates within 1/1000 are good"; }
 
   static constexpr __int128 top = (__int128{1} << 55) + 123456789;
@@ -109,8 +111,8 @@ class PlantedSpike final : public SearchTarget<__int128> {
   std::size_t arity_;
 };
 
-Search<__int128>::Found hunted(std::size_t arity, std::uint64_t evaluations, std::uint64_t seed, bool backwards,
-                               std::uint64_t* done = nullptr) {
+Search<__int128>::Found hunted(std::size_t arity, std::uint64_t evaluations, std::uint64_t seed,
+                               bool backwards, std::uint64_t* done = nullptr) {
   PlantedSpike target(arity);
   Search<__int128> search(target, {target.domain()}, {}, seed, {1U << 14U});
   while (search.evaluations() < evaluations) {
@@ -124,8 +126,8 @@ Search<__int128>::Found hunted(std::size_t arity, std::uint64_t evaluations, std
 }
 
 TEST(Search, FindsAPlantedSpike) {
-  // Random points come within 2^-20 of the space at best, where the spike is 8 - 43/4 < 0 high: nothing to see.
-  // Half a wave is 0.5, the spike 8.
+  // Random points come within 2^-20 of the space at best, where the spike is 8 - 43/4 < 0 high: nothing to
+  // see. Half a wave is 0.5, the spike 8.
   EXPECT_GT(hunted(1, 1U << 21U, 1, false).error, 7.5);
   EXPECT_GT(hunted(2, 1U << 22U, 1, false).error, 6);
 }
@@ -157,6 +159,8 @@ TEST(Search, WrongEstimatesAreFoundOut) {
     Judgement confirm(const SearchPoint<__int128>& x) const override {
       return {Outcome::finite, {truth(x)}, 1, false};
     }
+    int cheap_scale() const override { return 62; }
+    int significand_bits() const override { return 20; }
     void distrust_estimates() override { distrusted = true; }
     // The estimate grows to the right, the truth lies at 1000.
     static double truth(const SearchPoint<__int128>& x) {
@@ -179,9 +183,11 @@ TEST(FunctionSearch, HuntsInEveryTypeAndWithSeveralArguments) {
   for (const auto& engine : all_engines()) {
     for (const auto id : {FunctionId::cbrt, FunctionId::pow, FunctionId::cexp}) {
       const auto search = make_search(engine->descriptor().token, info_of(id), 1);
-      const std::size_t n = search->begin_round(300);
-      for (std::size_t i = 0; i < n; ++i) search->run_batch(i);
-      search->end_round();
+      while (search->evaluations() < 300) {
+        const std::size_t n = search->begin_round(300 - search->evaluations());
+        for (std::size_t i = 0; i < n; ++i) search->run_batch(i);
+        search->end_round();
+      }
       EXPECT_EQ(search->evaluations(), 300U);
       EXPECT_GT(search->best_error_ulp(), 0) << info_of(id).name << " " << engine->descriptor().token;
       const Point point = engine->point(info_of(id), search->best().args);
