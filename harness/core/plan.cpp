@@ -31,7 +31,7 @@ std::string plan_text(const PlanRequest& r) {
   for (const auto s : r.strata) strata.push_back(name_of(s));
   // Versions of the rules that make arguments and that record errors: raise them when they change.
   return fmt::format(
-      "ulpgate math plan\narguments 1\nerrors 2\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata "
+      "ulpgate math plan\narguments 1\nerrors 3\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata "
       "{}\nfunctions {}\n"
       "reference full\nworst_cases {:016x}\n",
       unit_size, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","),
