@@ -175,7 +175,8 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
   MpfrValue twice(mpfr_get_prec(mpc_realref(w)));
   mpfr_mul_ui(twice, mpc_realref(w), 2, nearest);
   const bool half_integer = mpfr_zero_p(mpc_imagref(w)) && size <= 10 && mpfr_integer_p(twice);
-  if (zero || half_integer || !is_finite(z) || !is_finite(w)) return complex_parts(mpc_pow(out, z, w, rounding));
+  if (zero || half_integer || !is_finite(z) || !is_finite(w))
+    return complex_parts(mpc_pow(out, z, w, rounding));
 
   // The angle Re(w) arg(z) + Im(w) ln|z|: without its second term it may be an exact multiple of pi/4.
   const bool one_term = mpfr_zero_p(mpc_imagref(w)) || is_of_modulus_one(z);
@@ -222,22 +223,22 @@ ExactParts evaluate(const FunctionInfo& f, std::span<const MpfrValue> a, std::sp
 #define REAL3(name, d0, d1, d2, hard, call) \
   case FunctionId::name:                    \
     return real_part(call(out[0], a[0], a[1], a[2], nearest));
-#define COMPLEX1(token, callee, call)                      \
-  case FunctionId::token: {                                \
-    const ComplexArgument z(a[0], a[1]);                   \
-    ComplexOut w(out);                                     \
+#define COMPLEX1(token, callee, call)                        \
+  case FunctionId::token: {                                  \
+    const ComplexArgument z(a[0], a[1]);                     \
+    ComplexOut w(out);                                       \
     return complex_parts(call(w.value, z.value, MPC_RNDNN)); \
   }
-#define COMPLEX2(token, callee, call)                               \
-  case FunctionId::token: {                                         \
-    const ComplexArgument z(a[0], a[1]);                            \
-    const ComplexArgument y(a[2], a[3]);                            \
-    ComplexOut w(out);                                              \
+#define COMPLEX2(token, callee, call)                                 \
+  case FunctionId::token: {                                           \
+    const ComplexArgument z(a[0], a[1]);                              \
+    const ComplexArgument y(a[2], a[3]);                              \
+    ComplexOut w(out);                                                \
     return complex_parts(call(w.value, z.value, y.value, MPC_RNDNN)); \
   }
-#define COMPLEX_REAL(token, callee, call)                \
-  case FunctionId::token: {                              \
-    const ComplexArgument z(a[0], a[1]);                 \
+#define COMPLEX_REAL(token, callee, call)             \
+  case FunctionId::token: {                           \
+    const ComplexArgument z(a[0], a[1]);              \
     return real_part(call(out[0], z.value, nearest)); \
   }
 #define POLAR(token, callee) \

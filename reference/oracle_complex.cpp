@@ -111,7 +111,8 @@ void hyperbolic_arc_tangent(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr
 
 // Hull, Fairgrieve and Tang, "Implementing the complex arcsine and arccosine functions using exception
 // handling", ACM TOMS 23 (1997): with x, y > 0, r and s the distances from -1 and 1 and a = (r + s)/2,
-//   acos = atan2(q, x) - i l,   asin = atan2(x, q) + i l,   q = sqrt(a^2 - x^2),   l = log1p(b + sqrt(b (a + 1))),
+//   acos = atan2(q, x) - i l,   asin = atan2(x, q) + i l,   q = sqrt(a^2 - x^2),   l = log1p(b + sqrt(b (a +
+//   1))),
 // b = a - 1, where a - x and a - 1 are written without cancellation.
 struct Arc {
   Arc(mpfr_prec_t bits, mpfr_srcptr x, mpfr_srcptr y) : q(bits), l(bits) {

@@ -182,6 +182,11 @@ class ScreenedJudging {
     constexpr double margin = 0x1p-50;
     finding.least = equal ? smallest_error : std::min(a.error, b.error).value * (1 - margin);
     finding.greatest = std::max(a.error, b.error).value * (1 + margin);
+    // Across a power of two the spacing jumps between its two ends, and the error with it.
+    if (mpfr_get_exp(static_cast<mpfr_srcptr>(value)) != mpfr_get_exp(upper_.get())) {
+      if (!equal) finding.least /= 2;
+      finding.greatest *= 2;
+    }
     finding.distance = std::max(a.distance, b.distance);
     finding.distance_known = a.distance == b.distance;
     return true;

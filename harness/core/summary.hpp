@@ -35,11 +35,11 @@ class UlpHistogram {
   std::map<int, std::uint64_t> counts;
 };
 
-// Where in its bucket the error of sample k is rounded up to the upper edge rather than down to the lower one:
-// uniform between the edges, from the counter k alone.  The expectation of the rounded error is the error, so
-// the mean of many is right to a twentieth of an ULP over the root of their number where errors are below 1/2,
-// and a reference need only prove on which side of the threshold an error lies.  The least bucket is rounded
-// up always.
+// Where in its bucket the error of sample k is rounded up to the upper edge rather than down to the lower
+// one: uniform between the edges, from the counter k alone.  The expectation of the rounded error is the
+// error, so the mean of many is right to a twentieth of an ULP over the root of their number where errors are
+// below 1/2, and a reference need only prove on which side of the threshold an error lies.  The least bucket
+// is rounded up always.
 [[nodiscard]] double rounding_threshold(int bucket, std::uint64_t k);
 
 // The sum of errors, each rounded to an edge of its bucket, as an integer over 2^-40 ULP, so that order does

@@ -31,11 +31,11 @@ struct Point {
   std::vector<PointPart> parts;
 };
 
-// References in the order of their cost.  A sample is decided by the first at which no statistic can depend on
-// what the reference leaves open.
+// References in the order of their cost.  A sample is decided by the first at which no statistic can depend
+// on what the reference leaves open.
 enum class Stage { binary64, x87_extended, binary128, mpfr, full };
-inline constexpr std::array<std::string_view, 5> stage_names = {"binary64", "x87_extended", "binary128", "mpfr",
-                                                                "full"};
+inline constexpr std::array<std::string_view, 5> stage_names = {"binary64", "x87_extended", "binary128",
+                                                                "mpfr", "full"};
 inline constexpr std::size_t stage_count = stage_names.size();
 [[nodiscard]] inline std::string_view name_of(Stage s) {
   return stage_names[static_cast<std::size_t>(s)];
@@ -91,8 +91,8 @@ class TypeEngine {
 
   [[nodiscard]] virtual const RealDescriptor& descriptor() const = 0;
 
-  // Judges points first..last-1 of a row; one summary per part.  Throws ReferenceDisagreement.  A maximum that
-  // `hint` shows to be below that of the row's other units may be missing from the summary.
+  // Judges points first..last-1 of a row; one summary per part.  Throws ReferenceDisagreement.  A maximum
+  // that `hint` shows to be below that of the row's other units may be missing from the summary.
   [[nodiscard]] virtual std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
                                                       std::uint64_t first, std::uint64_t last,
                                                       ReferenceMode mode, RowHint& hint) const = 0;
