@@ -1,6 +1,7 @@
 // Condition numbers of functions at a point.
 #include "reference/condition.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -16,12 +17,24 @@ std::vector<MpfrValue> values(int n, long bits) {
   return v;
 }
 
+// A step must be far below the period of a function that turns with its arguments: as many bits as the
+// largest has before its point.
+long periodic_bits(const FunctionInfo& f, std::span<const MpfrValue> args) {
+  if (f.function_class == FunctionClass::real && f.hard != HardFamily::trig) return 0;
+  long most = 0;
+  for (const auto& x : args) {
+    if (mpfr_regular_p(x.get())) most = std::max(most, static_cast<long>(mpfr_get_exp(x.get())));
+  }
+  return most;
+}
+
 }  // namespace
 
 double condition_number(const FunctionInfo& f, std::span<const MpfrValue> args, int part, long bits) {
   const WideExponentRange wide;
-  const long step_bits = bits + 32;
-  const long work_bits = 3 * step_bits + 64;
+  const long step_bits = bits + 32 + periodic_bits(f, args);
+  // The difference loses step_bits; 96 are left for a condition number of 1.
+  const long work_bits = step_bits + 96;
   const auto p = static_cast<std::size_t>(part);
   auto centre = values(f.parts, work_bits);
   auto above = values(f.parts, work_bits);

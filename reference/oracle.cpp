@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "reference/oracle_complex.hpp"
 #include "reference/oracle_special.hpp"
 
 namespace ulpgate {
@@ -53,11 +54,23 @@ struct ComplexArgument {
   mpc_t value;
 };
 
-// MPC's return value for two rounded parts, for our compositions, which do not know better.
-constexpr int both_rounded = MPC_INEX(1, 1);
+// What our compositions say of their parts.
+constexpr ExactParts not_known = {Exactness::unknown, Exactness::unknown};
 
-ExactParts exact_parts(int ternary) {
-  return {MPC_INEX_RE(ternary) == 0, MPC_INEX_IM(ternary) == 0};
+// MPFR's ternary value is zero exactly where nothing was rounded.
+Exactness exactness(int ternary) {
+  return ternary == 0 ? Exactness::exact : Exactness::rounded;
+}
+
+ExactParts real_part(int ternary) {
+  return {exactness(ternary), Exactness::unknown};
+}
+
+ExactParts complex_parts(int ternary) {
+  return {exactness(MPC_INEX_RE(ternary)), exactness(MPC_INEX_IM(ternary))};
+}
+ExactParts complex_parts(ExactParts parts) {
+  return parts;
 }
 
 // polar(r, t) = (r cos t, r sin t); 32 guard bits make the product's error 2^-31 ulp at most.
@@ -101,17 +114,17 @@ bool is_finite(mpc_srcptr z) {
   return mpfr_number_p(mpc_realref(z)) != 0 && mpfr_number_p(mpc_imagref(z)) != 0;
 }
 
-int tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
-  if (!is_finite(z)) return mpc_tan(out, z, rounding);
+ExactParts tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
+  if (!is_finite(z)) return complex_parts(mpc_tan(out, z, rounding));
   tangent_parts(mpc_realref(out), mpc_imagref(out), mpc_realref(z), mpc_imagref(z));
-  return both_rounded;
+  return not_known;
 }
 
 // tanh z = -i tan(iz): the parts of z change their roles.
-int hyperbolic_tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
-  if (!is_finite(z)) return mpc_tanh(out, z, rounding);
+ExactParts hyperbolic_tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
+  if (!is_finite(z)) return complex_parts(mpc_tanh(out, z, rounding));
   tangent_parts(mpc_imagref(out), mpc_realref(out), mpc_imagref(z), mpc_realref(z));
-  return both_rounded;
+  return not_known;
 }
 
 long exponent_of(mpfr_srcptr x) {
@@ -156,13 +169,14 @@ void power_by_turns(mpc_ptr out, mpc_srcptr log_power, mpfr_srcptr re_w, int eig
 
 // z^w = exp(w log z).  MPC's own power searches for exact results without end in sight where w is complex or
 // large; it serves where w is a small half integer.
-int power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
+ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
   const long size = std::max({exponent_of(mpc_realref(w)), exponent_of(mpc_imagref(w)), 0L});
   const bool zero = mpfr_zero_p(mpc_realref(z)) && mpfr_zero_p(mpc_imagref(z));
   MpfrValue twice(mpfr_get_prec(mpc_realref(w)));
   mpfr_mul_ui(twice, mpc_realref(w), 2, nearest);
   const bool half_integer = mpfr_zero_p(mpc_imagref(w)) && size <= 10 && mpfr_integer_p(twice);
-  if (zero || half_integer || !is_finite(z) || !is_finite(w)) return mpc_pow(out, z, w, rounding);
+  if (zero || half_integer || !is_finite(z) || !is_finite(w))
+    return complex_parts(mpc_pow(out, z, w, rounding));
 
   // The angle Re(w) arg(z) + Im(w) ln|z|: without its second term it may be an exact multiple of pi/4.
   const bool one_term = mpfr_zero_p(mpc_imagref(w)) || is_of_modulus_one(z);
@@ -177,66 +191,78 @@ int power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
     mpc_mul(product, product, w, rounding);
     if (eighths) {
       power_by_turns(out, product, mpc_realref(w), *eighths);
-      return both_rounded;
+      return not_known;
     }
     mpc_exp(out, product, rounding);
     mpfr_srcptr re = mpc_realref(out);
     mpfr_srcptr im = mpc_imagref(out);
-    if (mpfr_regular_p(re) == 0 || mpfr_regular_p(im) == 0) return both_rounded;
+    if (mpfr_regular_p(re) == 0 || mpfr_regular_p(im) == 0) return not_known;
     const long lost = std::abs(exponent_of(re) - exponent_of(im));
     // |log z| needs up to 12 bits before its point for binary64's exponents, 64 for any.
-    if (lost + 80 <= guard || guard >= most_guard_bits) return both_rounded;
+    if (lost + 80 <= guard || guard >= most_guard_bits) return not_known;
     guard = std::min(lost + 160, most_guard_bits);
   }
 }
 
-}  // namespace
+// Of a composition of MPFR's functions: where no step was rounded the value is exact.
+ExactParts parts_by_flag() {
+  if (mpfr_inexflag_p() != 0) return not_known;
+  return {Exactness::exact, Exactness::exact};
+}
 
-ExactParts exact_value(const FunctionInfo& f, std::span<const MpfrValue> a, std::span<MpfrValue> out) {
-  const WideExponentRange wide;
+ExactParts evaluate(const FunctionInfo& f, std::span<const MpfrValue> a, std::span<MpfrValue> out) {
+  if (f.function_class == FunctionClass::complex && oracle::complex_value(f, a, out)) return not_known;
   switch (f.id) {
 #define REAL1(name, d0, hard, call) \
   case FunctionId::name:            \
-    return {call(out[0], a[0], nearest) == 0, false};
+    return real_part(call(out[0], a[0], nearest));
 #define REAL2(name, d0, d1, hard, call) \
   case FunctionId::name:                \
-    return {call(out[0], a[0], a[1], nearest) == 0, false};
+    return real_part(call(out[0], a[0], a[1], nearest));
 #define OPER2(name, op, d0, d1, hard, call) REAL2(name, d0, d1, hard, call)
 #define REAL3(name, d0, d1, d2, hard, call) \
   case FunctionId::name:                    \
-    return {call(out[0], a[0], a[1], a[2], nearest) == 0, false};
-#define COMPLEX1(token, callee, call)                      \
-  case FunctionId::token: {                                \
-    const ComplexArgument z(a[0], a[1]);                   \
-    ComplexOut w(out);                                     \
-    return exact_parts(call(w.value, z.value, MPC_RNDNN)); \
+    return real_part(call(out[0], a[0], a[1], a[2], nearest));
+#define COMPLEX1(token, callee, call)                        \
+  case FunctionId::token: {                                  \
+    const ComplexArgument z(a[0], a[1]);                     \
+    ComplexOut w(out);                                       \
+    return complex_parts(call(w.value, z.value, MPC_RNDNN)); \
   }
-#define COMPLEX2(token, callee, call)                               \
-  case FunctionId::token: {                                         \
-    const ComplexArgument z(a[0], a[1]);                            \
-    const ComplexArgument y(a[2], a[3]);                            \
-    ComplexOut w(out);                                              \
-    return exact_parts(call(w.value, z.value, y.value, MPC_RNDNN)); \
+#define COMPLEX2(token, callee, call)                                 \
+  case FunctionId::token: {                                           \
+    const ComplexArgument z(a[0], a[1]);                              \
+    const ComplexArgument y(a[2], a[3]);                              \
+    ComplexOut w(out);                                                \
+    return complex_parts(call(w.value, z.value, y.value, MPC_RNDNN)); \
   }
-#define COMPLEX_REAL(token, callee, call)                \
-  case FunctionId::token: {                              \
-    const ComplexArgument z(a[0], a[1]);                 \
-    return {call(out[0], z.value, nearest) == 0, false}; \
+#define COMPLEX_REAL(token, callee, call)             \
+  case FunctionId::token: {                           \
+    const ComplexArgument z(a[0], a[1]);              \
+    return real_part(call(out[0], z.value, nearest)); \
   }
 #define POLAR(token, callee) \
   case FunctionId::token:    \
     polar(a, out);           \
-    return {};
+    return parts_by_flag();
 #define SPECIAL1(token, d0) \
   case FunctionId::token:   \
     oracle::token(a, out);  \
-    return {};
+    return parts_by_flag();
 #define SPECIAL2(token, d0, d1, hard) SPECIAL1(token, d0)
 #define SPECIAL3(token, d0, d1, d2) SPECIAL1(token, d0)
 #define SPECIAL4_COMPLEX(token, d0, d1, d2, d3) SPECIAL1(token, d0)
 #include "reference/functions.def"
   }
-  return {};
+  return not_known;
+}
+
+}  // namespace
+
+ExactParts exact_value(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out) {
+  const WideExponentRange wide;
+  mpfr_clear_inexflag();
+  return evaluate(f, args, out);
 }
 
 }  // namespace ulpgate

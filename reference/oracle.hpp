@@ -10,14 +10,16 @@
 
 namespace ulpgate {
 
-// Which parts of a value are known to be exact, not only rounded.  A false entry promises nothing.
-using ExactParts = std::array<bool, 2>;
+// What is known of a part: that it is the exact value, or that the exact value is another one.
+enum class Exactness { unknown, exact, rounded };
+using ExactParts = std::array<Exactness, 2>;
 
 // out[i] = part i of f(args), args taken exactly; the precision of out[i] is that of the result.
 //
-// Real functions and complex ones are MPFR's and MPC's, correctly rounded (error at most 1/2 ulp of the
-// result's precision); special functions are our series, accepted when two working precisions agree to 16
-// bits beyond it. Special values follow C99 annex F and G.  Runs in MPFR's widest exponent range.
+// Real functions are MPFR's, correctly rounded (error at most 1/2 ulp of the result's precision); complex
+// ones are MPC's or our formulas with 32 guard bits (oracle_complex.hpp), within 1/2 + 2^-24 ulp; special
+// functions are our series, accepted when two working precisions agree to 16 bits beyond it.  Special values
+// follow C99 annex F and G.  Runs in MPFR's widest exponent range.
 ExactParts exact_value(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out);
 
 }  // namespace ulpgate

@@ -17,7 +17,8 @@ double scaled_difference(mpfr_srcptr got, mpfr_srcptr exact, long exponent) {
   static thread_local MpfrValue difference(96);
   mpfr_sub(difference, got, exact, MPFR_RNDN);
   mpfr_mul_2si(difference, difference, -exponent, MPFR_RNDN);
-  return std::fabs(mpfr_get_d(difference, MPFR_RNDN));
+  // Away from zero: an error that no double holds is still an error.
+  return std::fabs(mpfr_get_d(difference, MPFR_RNDA));
 }
 
 // Position of |x| among the non-negative values of the format, as an exact integer in out.

@@ -7,7 +7,6 @@
 #include "harness/core/screened_judging.hpp"
 #include "harness/core/type_engine.hpp"
 #include "kernels/math/function_table.hpp"
-#include "reference/condition.hpp"
 #include "reference/text.hpp"
 
 namespace ulpgate {
@@ -33,37 +32,17 @@ class Engine final : public TypeEngine {
   [[nodiscard]] std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
                                               std::uint64_t first, std::uint64_t last, ReferenceMode mode,
                                               RowHint& hint) const override {
-    constexpr std::size_t batch_size = 256;
-    const auto arity = static_cast<std::size_t>(f.arity);
-    const auto parts = static_cast<std::size_t>(f.parts);
-    const Arguments<Real> arguments(f, source);
-    const Judging<Real>& judging = judging_for(mode);
-    const std::uint64_t stride =
-        source.stratum == Stratum::exhaustive ? exhaustive_oracle_stride : oracle_stride;
-    std::vector<Summary> summaries(parts);
-    std::vector<Real> args(batch_size * arity);
-    std::vector<Real> results(batch_size * parts);
-    std::vector<std::uint8_t> threw(batch_size);
-    std::vector<Judgement> judgements(batch_size * parts);
-    for (std::uint64_t k = first; k < last; k += batch_size) {
-      const std::size_t n = std::min<std::uint64_t>(batch_size, last - k);
-      for (std::size_t i = 0; i < n; ++i) arguments.make(k + i, &args[i * arity]);
-      std::fill(threw.begin(), threw.end(), std::uint8_t{0});
-      function(f)(args.data(), results.data(), threw.data(), n);
-      const Batch<Real> batch{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}, k};
-      judging.judge(batch, judgements);
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < parts; ++j) {
-          Judgement& judgement = judgements[i * parts + j];
-          judgement.error = recorded(judgement.error);
-          summaries[j].add(judgement, k + i);
-          update_condition(f, &args[i * arity], static_cast<int>(j), judgement, summaries[j],
-                           hint.error_over_condition[j]);
-        }
-        if ((k + i) % stride == 0) compare_oracles(f, &args[i * arity], k + i, summaries);
-      }
+    RowTally<Real> tally(f, hint);
+    if (mode == ReferenceMode::full) {
+      FullJudging<Real> judging(f);
+      run(f, source, first, last, judging, tally);
+      hint.decided[static_cast<std::size_t>(Stage::full)] += last - first;
+    } else {
+      ScreenedJudging<Real> judging(f);
+      run(f, source, first, last, judging, tally);
+      for (std::size_t s = 0; s < stage_count; ++s) hint.decided[s] += judging.decided()[s];
     }
-    return summaries;
+    return tally.take();
   }
 
   [[nodiscard]] Point point(const FunctionInfo& f, const StratumSource& source,
@@ -105,55 +84,51 @@ class Engine final : public TypeEngine {
     std::vector<std::uint8_t> threw_;
   };
 
-  [[nodiscard]] const Judging<Real>& judging_for(ReferenceMode mode) const {
-    if (mode == ReferenceMode::screened) return screened_;
-    return full_;
+  // All buffers are those of the batch: nothing is allocated a sample, and the one indirect call is a
+  // batch's.
+  template <class JudgingOfUnit>
+  void run(const FunctionInfo& f, const StratumSource& source, std::uint64_t first, std::uint64_t last,
+           JudgingOfUnit& judging, RowTally<Real>& tally) const {
+    constexpr std::size_t batch_size = 256;
+    const auto arity = static_cast<std::size_t>(f.arity);
+    const auto parts = static_cast<std::size_t>(f.parts);
+    const Arguments<Real> arguments(f, source);
+    std::vector<Real> args(batch_size * arity);
+    std::vector<Real> results(batch_size * parts);
+    std::vector<std::uint8_t> threw(batch_size);
+    const std::uint64_t stride =
+        source.stratum == Stratum::exhaustive ? exhaustive_oracle_stride : oracle_stride;
+    for (std::uint64_t k = first; k < last; k += batch_size) {
+      const std::size_t n = std::min<std::uint64_t>(batch_size, last - k);
+      for (std::size_t i = 0; i < n; ++i) arguments.make(k + i, &args[i * arity]);
+      std::fill(threw.begin(), threw.end(), std::uint8_t{0});
+      function(f)(args.data(), results.data(), threw.data(), n);
+      judging.judge(
+          Batch<Real>{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}, k}, tally);
+      for (std::size_t i = (stride - k % stride) % stride; i < n; i += stride)
+        compare_oracles(f, &args[i * arity], k + i, tally);
+    }
   }
 
   [[nodiscard]] BatchFunction<Real> function(const FunctionInfo& f) const {
     return functions_[static_cast<std::size_t>(f.id)];
   }
 
-  [[nodiscard]] static std::vector<MpfrValue> exact_arguments(const FunctionInfo& f, const Real* args) {
-    std::vector<MpfrValue> values;
-    for (int j = 0; j < f.arity; ++j) {
-      values.emplace_back(std::numeric_limits<Real>::digits);
-      to_mpfr(values.back().get(), args[j]);
-    }
-    return values;
-  }
-
-  static void update_condition(const FunctionInfo& f, const Real* args, int part, const Judgement& judgement,
-                               Summary& summary, std::atomic<double>& hint) {
-    const double error = judgement.error.value;
-    if (judgement.outcome != Outcome::finite || error <= 0.5 || error < hint.load(std::memory_order_relaxed))
-      return;
-    const auto values = exact_arguments(f, args);
-    const double condition = condition_number(f, values, part, std::numeric_limits<Real>::digits);
-    // Where the condition number is not defined the error stands as it is; inf/inf says nothing and is left
-    // out.
-    double ratio = condition > 1 ? error / condition : error;
-    if (ratio != ratio) ratio = 0;
-    summary.max_error_over_condition = std::max(summary.max_error_over_condition, ratio);
-    double seen = hint.load(std::memory_order_relaxed);
-    while (ratio > seen && !hint.compare_exchange_weak(seen, ratio, std::memory_order_relaxed)) {
-    }
-  }
-
   void compare_oracles(const FunctionInfo& f, const Real* args, std::uint64_t k,
-                       std::vector<Summary>& summaries) const {
+                       RowTally<Real>& tally) const {
+    const auto parts = static_cast<std::size_t>(f.parts);
     std::vector<Reference> wide;
     for (int j = 0; j < f.arity; ++j) wide.push_back(widen<Reference>(args[j]));
-    std::vector<Reference> family(summaries.size());
+    std::vector<Reference> family(parts);
     std::uint8_t threw = 0;
     family_[static_cast<std::size_t>(f.id)](wide.data(), family.data(), &threw, 1);
     const auto values = exact_arguments(f, args);
     std::vector<MpfrValue> exact;
-    for (std::size_t j = 0; j < summaries.size(); ++j) exact.emplace_back(descriptor_.reference_bits);
+    for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(descriptor_.reference_bits);
     exact_value(f, values, exact);
     MpfrValue other(descriptor_.reference_bits);
-    for (std::size_t j = 0; j < summaries.size(); ++j) {
-      OracleComparison& comparison = summaries[j].oracle;
+    for (std::size_t j = 0; j < parts; ++j) {
+      OracleComparison& comparison = tally.oracle(j);
       ++comparison.compared;
       to_mpfr(other.get(), family[j]);
       // Beyond Real's range both mean the same: compare what Real would make of them.
@@ -184,8 +159,9 @@ class Engine final : public TypeEngine {
     std::vector<Real> results(parts);
     std::uint8_t threw = 0;
     function(f)(args.data(), results.data(), &threw, 1);
-    std::vector<Judgement> judgements(parts);
-    full_.judge({f, args, results, {&threw, 1}}, judgements);
+    const Batch<Real> batch{f, args, results, {&threw, 1}};
+    FullJudging<Real> judging(f);
+    judging.load(batch, 0);
     const auto values = exact_arguments(f, args.data());
     std::vector<MpfrValue> exact;
     for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(descriptor_.reference_bits);
@@ -200,7 +176,7 @@ class Engine final : public TypeEngine {
       const bool none = threw != 0;
       p.parts.push_back({none ? "exception" : to_hexfloat(results[j]),
                          none ? "exception" : to_decimal(results[j]), to_decimal(exact[j].get(), digits),
-                         judgements[j],
+                         judging.judgement(batch, 0, j),
                          condition_number(f, values, static_cast<int>(j), descriptor_.format.precision)});
     }
     return p;
@@ -209,8 +185,6 @@ class Engine final : public TypeEngine {
   RealDescriptor descriptor_;
   FunctionTable<Real> functions_;
   const FunctionTable<Reference>& family_;
-  FullJudging<Real> full_;
-  ScreenedJudging<Real> screened_;
 };
 
 }  // namespace ulpgate

@@ -1,11 +1,12 @@
-// Judging<Real>: how a batch of results is held against the truth, and the full reference, which is one such
-// way.
+// Batches of results, their points as MPFR values, and FullJudging, which holds every sample against the full
+// reference.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "harness/core/row_tally.hpp"
 #include "reference/oracle.hpp"
 #include "reference/ulp.hpp"
 
@@ -21,28 +22,21 @@ struct Batch {
   std::uint64_t first_index = 0;  // of the row's points; the others follow
 
   [[nodiscard]] std::size_t count() const { return threw.size(); }
+  [[nodiscard]] const Real* args_of(std::size_t i) const {
+    return &args[i * static_cast<std::size_t>(function.arity)];
+  }
+  [[nodiscard]] const Real& result_of(std::size_t i, std::size_t part) const {
+    return results[i * static_cast<std::size_t>(function.parts) + part];
+  }
 };
 
-// A strategy of judging; one call per batch.  Every strategy gives judgements that agree in everything that a
-// summary records (see same_record).
-template <RealType Real>
-class Judging {
- public:
-  Judging() = default;
-  Judging(const Judging&) = delete;
-  Judging& operator=(const Judging&) = delete;
-  virtual ~Judging() = default;
-  // out[i * parts + part] judges that part of point i.
-  virtual void judge(const Batch<Real>& batch, std::span<Judgement> out) const = 0;
-};
+// Evaluates the exact value; what it promises is what exact_value promises.
+using ExactFunction = ExactParts (*)(const FunctionInfo&, std::span<const MpfrValue>, std::span<MpfrValue>);
 
 // The points of a batch, one at a time, as MPFR values, and exact values of them at one precision.
 template <RealType Real>
 class PointJudge {
  public:
-  // Evaluates the exact value; what it promises is what exact_value promises.
-  using ExactFunction = ExactParts (*)(const FunctionInfo&, std::span<const MpfrValue>, std::span<MpfrValue>);
-
   PointJudge(const FunctionInfo& f, long reference_bits, ExactFunction evaluate = exact_value)
       : function_(f), evaluate_(evaluate), got_(float_format<Real>().precision) {
     for (int j = 0; j < f.arity; ++j) args_.emplace_back(float_format<Real>().precision);
@@ -50,14 +44,17 @@ class PointJudge {
   }
 
   // Evaluates the exact values of point i.
-  ExactParts load(const Batch<Real>& batch, std::size_t i) {
-    for (std::size_t j = 0; j < args_.size(); ++j) to_mpfr(args_[j].get(), batch.args[i * args_.size() + j]);
-    return evaluate_(function_, args_, exact_);
+  void load(const Batch<Real>& batch, std::size_t i) {
+    const Real* args = batch.args_of(i);
+    for (std::size_t j = 0; j < args_.size(); ++j) to_mpfr(args_[j].get(), args[j]);
+    exactness_ = evaluate_(function_, args_, exact_);
   }
 
   [[nodiscard]] MpfrValue& exact(std::size_t part) { return exact_[part]; }
+  [[nodiscard]] Exactness exactness(std::size_t part) const { return exactness_[part]; }
+  [[nodiscard]] long double value(std::size_t part) const { return mpfr_get_ld(exact_[part], MPFR_RNDN); }
   [[nodiscard]] const MpfrValue& got(const Batch<Real>& batch, std::size_t i, std::size_t part) {
-    to_mpfr(got_.get(), batch.results[i * exact_.size() + part]);
+    to_mpfr(got_.get(), batch.result_of(i, part));
     return got_;
   }
 
@@ -74,28 +71,57 @@ class PointJudge {
   ExactFunction evaluate_;
   std::vector<MpfrValue> args_;
   std::vector<MpfrValue> exact_;
+  ExactParts exactness_{};
   MpfrValue got_;
 };
 
 inline constexpr Judgement exception_judgement{Outcome::exception, {}, 0, false};
 
-// Every sample against MPFR at the precision of RealHP<4>.
+// Every sample against MPFR at the precision of RealHP<4>.  One object per unit of work.
 template <RealType Real>
-class FullJudging final : public Judging<Real> {
+class FullJudging {
  public:
   static constexpr long reference_bits = std::numeric_limits<RealHP<4, Real>>::digits;
 
-  void judge(const Batch<Real>& batch, std::span<Judgement> out) const override {
-    const auto parts = static_cast<std::size_t>(batch.function.parts);
-    PointJudge<Real> point(batch.function, reference_bits);
-    for (std::size_t i = 0; i < batch.count(); ++i) {
-      if (batch.threw[i] == 0) point.load(batch, i);
-      for (std::size_t j = 0; j < parts; ++j) {
-        out[i * parts + j] =
-            batch.threw[i] != 0 ? exception_judgement : point.judge(point.got(batch, i, j), point.exact(j));
-      }
-    }
+  explicit FullJudging(const FunctionInfo& f) : point_(f, reference_bits) {}
+
+  // Evaluates point i; judgement(part) then judges its parts.
+  void load(const Batch<Real>& batch, std::size_t i) {
+    threw_ = batch.threw[i] != 0;
+    if (!threw_) point_.load(batch, i);
   }
+  [[nodiscard]] Judgement judgement(const Batch<Real>& batch, std::size_t i, std::size_t part) {
+    if (threw_) return exception_judgement;
+    mpfr_srcptr got = point_.got(batch, i, part);
+    Judgement j = point_.judge(got, point_.exact(part));
+    // A result equal to a rounded reference is wrong by less than the reference can say, but wrong.
+    if (point_.exactness(part) == Exactness::rounded && mpfr_regular_p(got) &&
+        mpfr_equal_p(got, point_.exact(part)) != 0) {
+      j.error.value = smallest_error;
+    }
+    return j;
+  }
+  [[nodiscard]] long double value(std::size_t part) const { return threw_ ? 0 : point_.value(part); }
+
+  void judge(const Batch<Real>& batch, RowTally<Real>& tally) {
+    for (std::size_t i = 0; i < batch.count(); ++i) judge(batch, i, tally);
+  }
+
+  // Point i alone.
+  void judge(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
+    std::array<Finding, max_parts> findings;
+    std::array<long double, max_parts> values{};
+    load(batch, i);
+    for (std::size_t part = 0; part < static_cast<std::size_t>(batch.function.parts); ++part) {
+      findings[part] = finding_of(judgement(batch, i, part));
+      values[part] = value(part);
+    }
+    tally.settle(findings, batch.first_index + i, batch.args_of(i), values);
+  }
+
+ private:
+  PointJudge<Real> point_;
+  bool threw_ = false;
 };
 
 }  // namespace ulpgate

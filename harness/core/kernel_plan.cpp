@@ -19,7 +19,7 @@ std::string plan_text(const KernelPlanRequest& r) {
   for (const auto s : r.strata) strata.push_back(name_of(s));
   // Versions of the rules that make states and that record errors: raise them when they change.
   return fmt::format(
-      "ulpgate kernel plan\nstates 1\nerrors 2\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata {}\nkernels "
+      "ulpgate kernel plan\nstates 1\nerrors 3\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata {}\nkernels "
       "{}\n"
       "reference full\n",
       unit_size, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","), fmt::join(kernels, ","));

@@ -34,7 +34,7 @@ std::string plan_text(const PlanRequest& r) {
     units += fmt::format(" exhaustive {}", exhaustive_unit_size);
   // Versions of the rules that make arguments and that record errors: raise them when they change.
   return fmt::format(
-      "ulpgate math plan\narguments 1\nerrors 2\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata "
+      "ulpgate math plan\narguments 1\nerrors 3\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata "
       "{}\nfunctions {}\n"
       "reference full\nworst_cases {:016x}\n",
       units, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","), fmt::join(functions, ","),

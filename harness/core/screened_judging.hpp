@@ -1,83 +1,222 @@
-// ScreenedJudging<Real>: MPFR a little above Real's own precision decides nearly every sample; what it cannot
-// decide climbs to the full reference, and a fixed share is always checked against it.
+// ScreenedJudging<Real>: cheap references with proven bounds first; what a stage cannot settle climbs to the
+// next, at the end to the full reference, and a fixed share is always checked against it.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <tuple>
 
 #include "harness/core/judging.hpp"
+#include "harness/core/native_stage.hpp"
 #include "harness/core/reference_disagreement.hpp"
 #include "reference/text.hpp"
 
 namespace ulpgate {
 
-// The stage's value is within one ulp of its own precision of the exact value: MPFR and MPC round correctly,
-// our compositions of them carry 32 guard bits, the special series 16 (oracle.hpp).  A sample is decided when
-// the ends of that interval lead to the same record.  The full reference lies in the interval as well, and
-// the error in ULP is monotone on either side of the result, so it leads to that record, too.
+// The stages before the full reference; tests plant wrong ones.
+struct ScreenStages {
+  BoundedFunction<double> binary64 = nullptr;
+  BoundedFunction<long double> x87_extended = nullptr;
+#ifdef ULPGATE_HAVE_FLOAT128
+  BoundedFunction<Binary128> binary128 = nullptr;
+#endif
+  ExactFunction mpfr = exact_value;
+};
+
+// The stages of f: functions of native types where they have trusted bounds.
+[[nodiscard]] inline ScreenStages screen_stages(const FunctionInfo& f) {
+  ScreenStages stages;
+  if (f.function_class != FunctionClass::real) return stages;
+  stages.binary64 = bounded_function<double>(f.id);
+  if constexpr (std::numeric_limits<long double>::digits == 64)
+    stages.x87_extended = bounded_function<long double>(f.id);
+#ifdef ULPGATE_HAVE_FLOAT128
+  stages.binary128 = bounded_function<Binary128>(f.id);
+#endif
+  return stages;
+}
+
+// One object per unit of work.
 template <RealType Real>
-class ScreenedJudging final : public Judging<Real> {
+class ScreenedJudging {
  public:
-  // At 64 bits beyond Real one sample in 2^24 falls next to a step of the recorded error; that many climb.
-  static constexpr long stage_bits = std::numeric_limits<Real>::digits + 64;
+  // The MPFR stage is within one ulp of its own precision of the exact value (oracle.hpp).
+  static constexpr long stage_bits = std::numeric_limits<Real>::digits + 32;
   static constexpr std::uint64_t check_stride = 1024;
 
-  explicit ScreenedJudging(typename PointJudge<Real>::ExactFunction stage = exact_value) : stage_(stage) {}
+  explicit ScreenedJudging(const FunctionInfo& f) : ScreenedJudging(f, screen_stages(f)) {}
+  ScreenedJudging(const FunctionInfo& f, const ScreenStages& stages)
+      : parts_(static_cast<std::size_t>(f.parts)),
+        natives_(native_stages(f.id, stages)),
+        stage_(f, stage_bits, stages.mpfr),
+        full_(f) {}
 
-  void judge(const Batch<Real>& batch, std::span<Judgement> out) const override {
-    const auto parts = static_cast<std::size_t>(batch.function.parts);
-    PointJudge<Real> stage(batch.function, stage_bits, stage_);
-    PointJudge<Real> full(batch.function, FullJudging<Real>::reference_bits);
-    std::vector<std::uint8_t> decided(parts);
-    for (std::size_t i = 0; i < batch.count(); ++i) {
-      const std::span<Judgement> judgements = out.subspan(i * parts, parts);
-      if (batch.threw[i] != 0) {
-        std::fill(judgements.begin(), judgements.end(), exception_judgement);
-        continue;
-      }
-      const ExactParts exactly = stage.load(batch, i);
-      bool all_decided = true;
-      for (std::size_t j = 0; j < parts; ++j) {
-        decided[j] = decide(stage, stage.got(batch, i, j), stage.exact(j), exactly[j], judgements[j]) ? 1 : 0;
-        all_decided = all_decided && decided[j] != 0;
-      }
-      if (all_decided && (batch.first_index + i) % check_stride != 0) continue;
-      full.load(batch, i);
-      for (std::size_t j = 0; j < parts; ++j) {
-        const Judgement judgement = full.judge(full.got(batch, i, j), full.exact(j));
-        if (decided[j] != 0 && !same_record(judgement, judgements[j])) disagree(batch, i, j);
-        judgements[j] = judgement;
-      }
+  // Throws ReferenceDisagreement.
+  void judge(const Batch<Real>& batch, RowTally<Real>& tally) {
+    pending_.clear();
+    checks_.clear();
+    for (std::size_t i = 0; i < batch.count(); ++i) pending_.push_back(i);
+    std::apply([&](auto&... stages) { (judge_natively(stages, batch, tally), ...); }, natives_);
+    std::erase_if(pending_, [&](std::size_t i) { return judge_by_mpfr(batch, i, tally); });
+    for (const std::size_t i : pending_) full_.judge(batch, i, tally);
+    decided_[static_cast<std::size_t>(Stage::full)] += pending_.size();
+    for (const Check& c : checks_) verify(c, batch);
+  }
+
+  // Samples that each stage decided so far.
+  [[nodiscard]] const std::array<std::uint64_t, stage_count>& decided() const { return decided_; }
+
+ private:
+  // What a stage would have decided of a sample that goes to the full reference in any case.
+  struct Check {
+    std::size_t i;
+    Stage stage;
+    std::array<Finding, max_parts> findings;
+  };
+
+  static auto x87_stage(FunctionId f, const ScreenStages& s) {
+    if constexpr (NativeBits<long double>) {
+      return std::tuple(NativeStage<Real, long double, Stage::x87_extended>(f, s.x87_extended));
+    } else {
+      return std::tuple();
+    }
+  }
+  static auto binary128_stage(FunctionId f, const ScreenStages& s) {
+#ifdef ULPGATE_HAVE_FLOAT128
+    return std::tuple(NativeStage<Real, Binary128, Stage::binary128>(f, s.binary128));
+#else
+    return std::tuple();
+#endif
+  }
+  static auto native_stages(FunctionId f, const ScreenStages& s) {
+    if constexpr (std::same_as<Real, float>) {
+      return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
+                            x87_stage(f, s), binary128_stage(f, s));
+    } else if constexpr (std::same_as<Real, double>) {
+      return std::tuple_cat(x87_stage(f, s), binary128_stage(f, s));
+    } else if constexpr (std::same_as<Real, long double> && NativeBits<long double>) {
+      return binary128_stage(f, s);
+    } else {
+      return std::tuple();
     }
   }
 
- private:
-  static bool decide(const PointJudge<Real>& stage, mpfr_srcptr got, mpfr_ptr value, bool exact,
-                     Judgement& judgement) {
-    if (exact || mpfr_nan_p(value)) {
-      judgement = stage.judge(got, value);
+  [[nodiscard]] bool is_checked(const Batch<Real>& batch, std::size_t i) const {
+    return (batch.first_index + i) % check_stride == 0;
+  }
+
+  template <class Native>
+  void judge_natively(Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
+    if (!native.exists() || pending_.empty()) return;
+    const auto arity = static_cast<std::size_t>(batch.function.arity);
+    if (pending_.size() == batch.count()) {
+      native.load(batch.args, batch.count());
+    } else {
+      gathered_.clear();
+      for (const std::size_t i : pending_)
+        gathered_.insert(gathered_.end(), batch.args_of(i), batch.args_of(i) + arity);
+      native.load(gathered_, pending_.size());
+    }
+    std::size_t left = 0;
+    for (std::size_t n = 0; n < pending_.size(); ++n) {
+      const std::size_t i = pending_[n];
+      Finding finding;
+      if (batch.threw[i] == 0 && native.find(n, batch.args_of(i), batch.result_of(i, 0), finding)) {
+        const long double value = native.value(n);
+        if (is_checked(batch, i)) {
+          checks_.push_back({i, Native::id, {finding, {}}});
+        } else if (tally.settle({&finding, 1}, batch.first_index + i, batch.args_of(i), {&value, 1})) {
+          ++decided_[static_cast<std::size_t>(Native::id)];
+          continue;
+        }
+      }
+      pending_[left++] = i;
+    }
+    pending_.resize(left);
+  }
+
+  // True where the sample is done with.
+  bool judge_by_mpfr(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
+    std::array<Finding, max_parts> findings;
+    std::array<long double, max_parts> values{};
+    if (batch.threw[i] != 0) return false;
+    stage_.load(batch, i);
+    for (std::size_t part = 0; part < parts_; ++part) {
+      values[part] = stage_.value(part);
+      if (!find(stage_.got(batch, i, part), part, findings[part])) return false;
+    }
+    if (is_checked(batch, i)) {
+      checks_.push_back({i, Stage::mpfr, findings});
+      return false;
+    }
+    if (!tally.settle(findings, batch.first_index + i, batch.args_of(i), values)) return false;
+    ++decided_[static_cast<std::size_t>(Stage::mpfr)];
+    return true;
+  }
+
+  // The error in ULP is monotone on either side of the result: the ends of the interval around the stage's
+  // value bound it.
+  bool find(mpfr_srcptr got, std::size_t part, Finding& finding) {
+    mpfr_ptr value = stage_.exact(part);
+    const Exactness exactness = stage_.exactness(part);
+    if (exactness == Exactness::exact || mpfr_nan_p(value)) {
+      finding = finding_of(stage_.judge(got, value));
       return true;
     }
     // An inexact zero or infinity has left even MPFR's range.
     if (!mpfr_regular_p(value)) return false;
-    static thread_local MpfrValue upper(stage_bits);
-    mpfr_set(upper, value, MPFR_RNDN);
-    mpfr_nextabove(upper);
+    mpfr_set_prec(upper_, mpfr_get_prec(value));
+    mpfr_set(upper_, value, MPFR_RNDN);
+    mpfr_nextabove(upper_);
+    const bool equal = exactness == Exactness::rounded && mpfr_equal_p(got, value) != 0;
     mpfr_nextbelow(value);
-    // Within the interval the error may be anything down to an exact zero.
-    if (!mpfr_nan_p(got) && mpfr_lessequal_p(value, got) && mpfr_lessequal_p(got, upper)) return false;
-    judgement = stage.judge(got, value);
-    return same_record(judgement, stage.judge(got, upper));
+    const Judgement a = stage_.judge(got, value);
+    const Judgement b = stage_.judge(got, upper_);
+    if (a.outcome != b.outcome) return false;
+    finding = finding_of(a);
+    if (a.outcome != Outcome::finite) return true;
+    if (a.correctly_rounded != b.correctly_rounded) return false;
+    // Within the interval the error may be anything down to an exact zero, unless that is known not to be.
+    const bool inside = mpfr_lessequal_p(value, got) && mpfr_lessequal_p(got, upper_);
+    if (inside && !equal) return false;
+    constexpr double margin = 0x1p-50;
+    finding.least = equal ? smallest_error : std::min(a.error, b.error).value * (1 - margin);
+    finding.greatest = std::max(a.error, b.error).value * (1 + margin);
+    // Across a power of two the spacing jumps between its two ends, and the error with it.
+    if (mpfr_get_exp(static_cast<mpfr_srcptr>(value)) != mpfr_get_exp(upper_.get())) {
+      if (!equal) finding.least /= 2;
+      finding.greatest *= 2;
+    }
+    finding.distance = std::max(a.distance, b.distance);
+    finding.distance_known = a.distance == b.distance;
+    return true;
   }
 
-  [[noreturn]] static void disagree(const Batch<Real>& batch, std::size_t i, std::size_t part) {
-    std::string text = "the screened reference disagrees with the full one in part " + std::to_string(part) +
-                       " of " + std::string(batch.function.name) + " at";
-    const auto arity = static_cast<std::size_t>(batch.function.arity);
-    for (std::size_t j = 0; j < arity; ++j) text += " " + to_hexfloat(batch.args[i * arity + j]);
+  void verify(const Check& check, const Batch<Real>& batch) {
+    full_.load(batch, check.i);
+    for (std::size_t part = 0; part < parts_; ++part) {
+      if (!check.findings[part].allows(full_.judgement(batch, check.i, part))) disagree(check, batch, part);
+    }
+  }
+
+  [[noreturn]] static void disagree(const Check& check, const Batch<Real>& batch, std::size_t part) {
+    std::string text = "the screened reference (" + std::string(name_of(check.stage)) +
+                       ") disagrees with the full one in part " + std::to_string(part) + " of " +
+                       std::string(batch.function.name) + " at";
+    for (std::size_t j = 0; j < static_cast<std::size_t>(batch.function.arity); ++j)
+      text += " " + to_hexfloat(batch.args_of(check.i)[j]);
     throw ReferenceDisagreement(text);
   }
 
-  typename PointJudge<Real>::ExactFunction stage_;
+  std::size_t parts_;
+  decltype(native_stages(FunctionId{}, ScreenStages{})) natives_;
+  PointJudge<Real> stage_;
+  FullJudging<Real> full_;
+  MpfrValue upper_;
+  std::vector<std::size_t> pending_;
+  std::vector<Real> gathered_;
+  std::vector<Check> checks_;
+  std::array<std::uint64_t, stage_count> decided_{};
 };
 
 }  // namespace ulpgate

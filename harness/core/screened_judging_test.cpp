@@ -39,31 +39,86 @@ TEST(ScreenedJudging, GivesTheRecordsOfTheFullReference) {
   }
 }
 
-// Off by a few units of its own precision: more than a stage may be.
-ExactParts lying_stage(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out) {
+// Off by a thousand units of its own precision, and told as exact, so that the lie decides.
+ExactParts lying_mpfr(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out) {
   exact_value(f, args, out);
   for (int step = 0; step < 1000; ++step) mpfr_nextabove(out[0]);
-  // Told as exact, so that the lie decides.
-  return {true, true};
+  return {Exactness::exact, Exactness::exact};
+}
+
+// Off by 2^-16 of the value, with a bound of half an ulp.
+template <class W>
+void lying_exp(const W* args, W* results, double* bounds, std::size_t count, int argument_bits) {
+  bounded_function<W>(FunctionId::exp)(args, results, bounds, count, argument_bits);
+  for (std::size_t i = 0; i < count; ++i) {
+    results[i] += results[i] / 65536;
+    bounds[i] = 0.5;
+  }
+}
+
+// Judges exp(0.5) as the point with this index.
+template <class Real>
+void judge_exp(const ScreenStages& stages, std::uint64_t index) {
+  const FunctionInfo& exp = info_of(FunctionId::exp);
+  const Real x = 0.5;
+  const Real y = std::exp(x);
+  const std::uint8_t threw = 0;
+  RowHint hint(1);
+  RowTally<Real> tally(exp, hint);
+  ScreenedJudging<Real> judging(exp, stages);
+  judging.judge({exp, {&x, 1}, {&y, 1}, {&threw, 1}, index}, tally);
+}
+
+template <class Real>
+void expect_named(const ScreenStages& stages, std::string_view stage) {
+  // Index 1 is not among the checked: there the lie passes, whatever it decides.
+  EXPECT_NO_THROW(judge_exp<Real>(stages, 1)) << stage;
+  try {
+    judge_exp<Real>(stages, ScreenedJudging<Real>::check_stride);
+    FAIL() << "the checked share must find the lie of " << stage;
+  } catch (const ReferenceDisagreement& e) {
+    EXPECT_NE(std::string(e.what()).find(stage), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("exp at 0x1p-1"), std::string::npos) << e.what();
+  }
 }
 
 TEST(ScreenedJudging, ALyingStageIsFoundAndTheArgumentNamed) {
-  const double x = 0.5;
-  const double y = std::exp(x);
-  const std::uint8_t threw = 0;
-  Judgement out;
-  const ScreenedJudging<double> screened(lying_stage);
   const FunctionInfo& exp = info_of(FunctionId::exp);
-  // Index 1 is not among the checked: there the lie would pass.
-  EXPECT_NO_THROW(screened.judge({exp, {&x, 1}, {&y, 1}, {&threw, 1}, 1}, {&out, 1}));
-  const double zero = 0;
-  const double one = 1;  // exp(0) is exact; the stage says otherwise
-  try {
-    screened.judge({exp, {&zero, 1}, {&one, 1}, {&threw, 1}, 0}, {&out, 1});
-    FAIL() << "the checked share must find the lie";
-  } catch (const ReferenceDisagreement& e) {
-    EXPECT_NE(std::string(e.what()).find("exp at 0x0p+0"), std::string::npos) << e.what();
+  EXPECT_NO_THROW(judge_exp<double>(screen_stages(exp), 0)) << "the stages as they are";
+  ScreenStages stages = screen_stages(exp);
+  stages.mpfr = lying_mpfr;
+  expect_named<double>(stages, "mpfr");
+  stages = screen_stages(exp);
+  stages.binary64 = lying_exp<double>;
+  expect_named<float>(stages, "binary64");
+  if constexpr (NativeBits<long double>) {
+    stages = screen_stages(exp);
+    stages.x87_extended = lying_exp<long double>;
+    expect_named<double>(stages, "x87_extended");
   }
+#ifdef ULPGATE_HAVE_FLOAT128
+  stages = screen_stages(exp);
+  stages.binary128 = lying_exp<Binary128>;
+  expect_named<double>(stages, "binary128");
+  expect_named<long double>(stages, "binary128");
+#endif
+}
+
+TEST(ScreenedJudging, CheapStagesDecideNearlyEverySample) {
+  const TypeEngine& engine = *find_engine("double");
+  RowHint hint(1);
+  const auto summaries = engine.evaluate(info_of(FunctionId::exp), {Stratum::uniform, 1, 20000, nullptr}, 0,
+                                         20000, ReferenceMode::screened, hint);
+  std::uint64_t all = 0;
+  for (const auto& n : hint.decided) all += n;
+  EXPECT_EQ(all, 20000U);
+  EXPECT_EQ(summaries[0].samples, 20000U);
+#ifdef ULPGATE_HAVE_FLOAT128
+  if constexpr (NativeBits<long double>) {
+    EXPECT_GT(hint.decided[static_cast<std::size_t>(Stage::x87_extended)], 17000U);
+    EXPECT_LT(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 200U);
+  }
+#endif
 }
 
 TEST(RecordedError, IsRoundedUpToFortyBits) {

@@ -17,6 +17,7 @@ constexpr double sum_limit = 0x1p60;
 
 int UlpHistogram::bucket(Ulp error) {
   if (!std::isfinite(error.value)) return greatest;
+  if (error.value <= 0x1p-6) return least;
   int exponent = 0;
   const double m = std::frexp(error.value, &exponent);  // [1/2, 1)
   // (2^-1, 2^-3/4] is the first bucket of the octave; 2^-1 itself is the last of the octave below.
@@ -24,7 +25,9 @@ int UlpHistogram::bucket(Ulp error) {
   if (quarter == 0) {
     while (m > quarter_octaves[static_cast<std::size_t>(quarter)]) ++quarter;
   }
-  return std::clamp(4 * (exponent - 1) + quarter + 1, least, greatest);
+  const int fine = 4 * (exponent - 1) + quarter + 1;
+  if (fine <= finest) return -(-fine / 4 * 4);  // up to the next octave
+  return std::min(fine, greatest);
 }
 
 double UlpHistogram::upper_edge(int bucket) {
@@ -32,6 +35,11 @@ double UlpHistogram::upper_edge(int bucket) {
   const int octave = (bucket - 1) >= 0 ? (bucket - 1) / 4 : -((-(bucket - 1) + 3) / 4);
   const int quarter = bucket - 1 - 4 * octave;
   return std::ldexp(quarter_octaves[static_cast<std::size_t>(quarter)], octave + 1);
+}
+
+double UlpHistogram::lower_edge(int bucket) {
+  if (bucket == least) return 0;
+  return upper_edge(bucket <= finest ? bucket - 4 : bucket - 1);
 }
 
 void UlpHistogram::add(Ulp error) {
@@ -61,9 +69,26 @@ double UlpHistogram::quantile(double fraction) const {
   return upper_edge(counts.rbegin()->first);
 }
 
-void UlpSum::add(Ulp error) {
-  const double clamped = error.value < sum_limit ? error.value : sum_limit;
-  units_ += static_cast<unsigned __int128>(clamped / sum_unit);
+double rounding_threshold(int bucket, std::uint64_t k) {
+  if (bucket == UlpHistogram::least) return 0;
+  // SplitMix64's finalizer (Steele, Lea, Flood: "Fast splittable pseudorandom number generators", 2014).
+  std::uint64_t z = k + 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  z ^= z >> 31U;
+  const double lower = UlpHistogram::lower_edge(bucket);
+  return lower + static_cast<double>(z >> 11U) * 0x1p-53 * (UlpHistogram::upper_edge(bucket) - lower);
+}
+
+void UlpSum::add(Ulp error, std::uint64_t k) {
+  if (error.value == 0) return;
+  const int bucket = UlpHistogram::bucket(error);
+  const bool up = error.value > rounding_threshold(bucket, k);
+  add_edges(up ? UlpHistogram::upper_edge(bucket) : UlpHistogram::lower_edge(bucket), 1);
+}
+
+void UlpSum::add_edges(double edge, std::uint64_t count) {
+  units_ += static_cast<unsigned __int128>(std::min(edge, sum_limit) / sum_unit) * count;
 }
 
 double UlpSum::mean(std::uint64_t count) const {
@@ -99,7 +124,7 @@ void Summary::add(const Judgement& judgement, std::uint64_t k) {
   max_error.add(judgement.error.value, k);
   max_distance = std::max(max_distance, judgement.distance);
   histogram.add(judgement.error);
-  sum.add(judgement.error);
+  sum.add(judgement.error, k);
 }
 
 void Summary::merge(const Summary& other) {

@@ -12,10 +12,12 @@ namespace ulpgate {
 
 inline constexpr std::uint64_t no_index = std::numeric_limits<std::uint64_t>::max();
 
-// Quarter-octave buckets of the ULP error: bucket i holds errors in (2^((i-1)/4), 2^(i/4)].
+// Buckets of the ULP error, named by their upper edge 2^(i/4): quarter octaves above 1/4 ULP, octaves below,
+// where a cheap reference could not tell quarters apart and nobody asks.
 class UlpHistogram {
  public:
-  static constexpr int least = -96;          // everything up to 2^-24
+  static constexpr int least = -24;          // everything up to 2^-6
+  static constexpr int finest = -8;          // from this bucket down each holds an octave
   static constexpr int greatest = 4 * 1024;  // everything above 2^1023.75, infinity included
 
   void add(Ulp error);
@@ -23,18 +25,30 @@ class UlpHistogram {
   // Upper edge of the first bucket at which at least `fraction` of the samples are reached; 0 for exact
   // results. NaN when empty.
   [[nodiscard]] double quantile(double fraction) const;
+  // Of a nonzero error.
   [[nodiscard]] static int bucket(Ulp error);
+  // Bucket i holds errors in (lower_edge(i), upper_edge(i)].
   [[nodiscard]] static double upper_edge(int bucket);
+  [[nodiscard]] static double lower_edge(int bucket);
 
   std::uint64_t exact = 0;
   std::map<int, std::uint64_t> counts;
 };
 
-// The sum of errors as an integer over 2^-40 ULP, so that order does not matter.  One error counts at most
-// 2^60 ULP: beyond that a mean says nothing, the maximum and the histogram do.
+// Where in its bucket the error of sample k is rounded up to the upper edge rather than down to the lower
+// one: uniform between the edges, from the counter k alone.  The expectation of the rounded error is the
+// error, so the mean of many is right to a twentieth of an ULP over the root of their number where errors are
+// below 1/2, and a reference need only prove on which side of the threshold an error lies.  The least bucket
+// is rounded up always.
+[[nodiscard]] double rounding_threshold(int bucket, std::uint64_t k);
+
+// The sum of errors, each rounded to an edge of its bucket, as an integer over 2^-40 ULP, so that order does
+// not matter.  One error counts at most 2^60 ULP: beyond that a mean says nothing, the maximum and the
+// histogram do.
 class UlpSum {
  public:
-  void add(Ulp error);
+  void add(Ulp error, std::uint64_t k);
+  void add_edges(double edge, std::uint64_t count);
   void merge(const UlpSum& other) { units_ += other.units_; }
   [[nodiscard]] double mean(std::uint64_t count) const;
   [[nodiscard]] std::string to_text() const;  // hexadecimal

@@ -13,10 +13,12 @@ namespace ulpgate {
 namespace {
 
 TEST(Histogram, BucketsHoldTheirUpperEdge) {
-  for (int i = UlpHistogram::least + 1; i < 400; ++i) {
+  for (int i = UlpHistogram::least; i < 400; i += i < UlpHistogram::finest ? 4 : 1) {
+    const int next = i + (i < UlpHistogram::finest ? 4 : 1);
     const double edge = UlpHistogram::upper_edge(i);
     EXPECT_EQ(UlpHistogram::bucket({edge}), i);
-    EXPECT_EQ(UlpHistogram::bucket({std::nextafter(edge, HUGE_VAL)}), i + 1);
+    EXPECT_EQ(UlpHistogram::bucket({std::nextafter(edge, HUGE_VAL)}), next);
+    EXPECT_EQ(UlpHistogram::lower_edge(next), edge);
     EXPECT_NEAR(std::log2(edge), i / 4.0, 1e-14);
   }
   EXPECT_EQ(UlpHistogram::bucket({1e-300}), UlpHistogram::least);
@@ -82,12 +84,20 @@ TEST(Summary, TiesGoToTheLowestIndex) {
 
 TEST(UlpSum, IsExactAndTextRoundTrips) {
   UlpSum sum;
-  for (int i = 0; i < 1000; ++i) sum.add({0.1});
-  sum.add({HUGE_VAL});
+  for (std::uint64_t k = 0; k < 1000; ++k) sum.add({0.1}, k);
+  sum.add({HUGE_VAL}, 1000);
   EXPECT_EQ(UlpSum::from_text(sum.to_text()).to_text(), sum.to_text());
-  UlpSum small;
-  for (int i = 0; i < 4; ++i) small.add({0.25});
-  EXPECT_EQ(small.mean(4), 0.25);
+  UlpSum edges;
+  for (std::uint64_t k = 0; k < 4; ++k) edges.add({0.25}, k);
+  EXPECT_EQ(edges.mean(4), 0.25) << "an edge is rounded to itself";
+}
+
+TEST(UlpSum, TheMeanOfRoundedErrorsIsTheMean) {
+  for (const double error : {0.1, 0.3, 0.49, 3.3}) {
+    UlpSum sum;
+    for (std::uint64_t k = 0; k < 100000; ++k) sum.add({error}, k);
+    EXPECT_NEAR(sum.mean(100000), error, error * 2e-3);
+  }
 }
 
 TEST(SummaryText, ComesBackAsItWas) {

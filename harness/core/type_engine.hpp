@@ -2,8 +2,10 @@
 // type built.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -29,11 +31,38 @@ struct Point {
   std::vector<PointPart> parts;
 };
 
-// Shared by the units of one row: the largest error-over-condition found so far, which lets a unit skip
-// condition numbers that cannot raise it.  It changes how much is computed, never the result.
-struct RowHint {
+// References in the order of their cost.  A sample is decided by the first at which no statistic can depend
+// on what the reference leaves open.
+enum class Stage { binary64, x87_extended, binary128, mpfr, full };
+inline constexpr std::array<std::string_view, 5> stage_names = {"binary64", "x87_extended", "binary128",
+                                                                "mpfr", "full"};
+inline constexpr std::size_t stage_count = stage_names.size();
+[[nodiscard]] inline std::string_view name_of(Stage s) {
+  return stage_names[static_cast<std::size_t>(s)];
+}
+
+// Shared by the units of one row: the largest figures that finished units have found, which let a unit skip
+// what cannot raise them, and counts of the samples that each stage decided.  They change how much is
+// computed, never the row's record.
+class RowHint {
+ public:
   std::vector<std::atomic<double>> error_over_condition;
-  explicit RowHint(int parts) : error_over_condition(static_cast<std::size_t>(parts)) {}
+  std::array<std::atomic<std::uint64_t>, stage_count> decided{};
+
+  explicit RowHint(int parts)
+      : error_over_condition(static_cast<std::size_t>(parts)), max_error_(static_cast<std::size_t>(parts)) {}
+  [[nodiscard]] Maximum max_error(std::size_t part) const {
+    const std::lock_guard lock(mutex_);
+    return max_error_[part];
+  }
+  void raise_max_error(std::size_t part, const Maximum& found) {
+    const std::lock_guard lock(mutex_);
+    max_error_[part].merge(found);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<Maximum> max_error_;
 };
 
 // A prepared batch of arguments of one function, evaluated again and again by a benchmark.
@@ -49,7 +78,7 @@ class TimedBatch {
 
 // What results are held against; the records are the same for both.
 enum class ReferenceMode {
-  screened,  // MPFR a little above the type's precision decides, the rest climbs
+  screened,  // cheap stages decide what they can, the rest climbs
   full,      // MPFR at the precision of RealHP<4> for every sample
 };
 
@@ -62,7 +91,8 @@ class TypeEngine {
 
   [[nodiscard]] virtual const RealDescriptor& descriptor() const = 0;
 
-  // Judges points first..last-1 of a row; one summary per part.  Throws ReferenceDisagreement.
+  // Judges points first..last-1 of a row; one summary per part.  Throws ReferenceDisagreement.  A maximum
+  // that `hint` shows to be below that of the row's other units may be missing from the summary.
   [[nodiscard]] virtual std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
                                                       std::uint64_t first, std::uint64_t last,
                                                       ReferenceMode mode, RowHint& hint) const = 0;

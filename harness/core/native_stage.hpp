@@ -1,0 +1,119 @@
+// NativeStage<Real, W, S>: the C library's function in the wider native type W bounds the errors of a batch.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "harness/core/exact_results.hpp"
+#include "harness/core/finding.hpp"
+#include "harness/core/native_bits.hpp"
+#include "harness/core/type_engine.hpp"
+
+namespace ulpgate {
+
+template <NativeReal Real, NativeBits W, Stage S>
+class NativeStage {
+ public:
+  static constexpr Stage id = S;
+
+  NativeStage(FunctionId f, BoundedFunction<W> function) : id_(f), function_(function) {}
+  [[nodiscard]] bool exists() const { return function_ != nullptr; }
+
+  // Evaluates the points of `args`, count * arity values.
+  void load(std::span<const Real> args, std::size_t count) {
+    args_.resize(args.size());
+    results_.resize(count);
+    bounds_.resize(count);
+    std::copy(args.begin(), args.end(), args_.begin());
+    function_(args_.data(), results_.data(), bounds_.data(), count, std::numeric_limits<Real>::digits);
+  }
+
+  [[nodiscard]] long double value(std::size_t i) const { return static_cast<long double>(results_[i]); }
+
+  // What is known of `got`, the result at point i of the loaded ones, whose arguments are `args`; false where
+  // the stage has no say: special results, results next to over- and underflow, refused arguments.
+  [[nodiscard]] bool find(std::size_t i, const Real* args, Real got, Finding& finding) const {
+    constexpr int p = std::numeric_limits<Real>::digits;
+    constexpr int least_exponent = std::max(std::numeric_limits<Real>::min_exponent + 1, -900);
+    constexpr int greatest_exponent = std::min(std::numeric_limits<Real>::max_exponent - 3, 900);
+    const W value = results_[i];
+    const NumberBits bits = bits_of(value);
+    const NumberBits got_bits = bits_of(got);
+    const double bound = bounds_[i];
+    if (!(bound >= 0) || !bits.normal || !got_bits.normal || bits.exponent < least_exponent ||
+        bits.exponent > greatest_exponent || std::abs(got_bits.exponent - bits.exponent) > 50 ||
+        (got < 0) != (value < 0)) {
+      return false;
+    }
+    const W difference = static_cast<W>(got) - value;
+    const auto rounded = static_cast<double>(difference);
+    // Of two neighbouring numbers the difference is exact (Sterbenz), and it may be a double.
+    const bool exact = bound == 0 && static_cast<W>(rounded) == difference &&
+                       std::abs(got_bits.exponent - bits.exponent) <= 1;
+    const double error = std::fabs(rounded) * power_of_two(p - 1 - bits.exponent);
+    const double slack = exact ? 0 : bound * unit + error * 0x1p-48;
+    double least = error - slack;
+    double greatest = error + slack;
+    // Next to a power of two the exact value may lie in the other binade, where the spacing is half or
+    // double. 32 bits say how near; bounds are below 2^20 ulp and W has 52 bits and more behind the leading
+    // one.
+    const bool next_to_power = !exact && (bits.fraction == 0 || bits.fraction == 0xffffffffU);
+    if (next_to_power) {
+      if (bits.fraction == 0) {
+        greatest = 2 * (error + 2 * slack);
+        least = error - 2 * slack;
+      } else {
+        least = (error - 2 * slack) / 2;
+        greatest = error + 2 * slack;
+      }
+    }
+    if (least <= 0 && !exact) {
+      // Too close to tell: exact or not is known by other means.
+      const Exactness exactness = bound == 0 ? Exactness::unknown : exactness_of(id_, args, got);
+      if (exactness == Exactness::unknown) return false;
+      least = smallest_error;
+      if (exactness == Exactness::exact) least = greatest = 0;
+    }
+    finding = {Outcome::finite, least, greatest, 0, true, true};
+    if (greatest < 0.5) return true;
+    if (least > 0.5) {
+      finding.correctly_rounded = false;
+    } else if (exact && least == 0.5) {
+      finding.correctly_rounded = !got_bits.odd;
+    } else {
+      return false;
+    }
+    set_distance(finding, got_bits.exponent == bits.exponent && !next_to_power);
+    return true;
+  }
+
+ private:
+  // One ulp of W in ulp of Real, with a margin.
+  static constexpr double unit =
+      power_of_two(std::numeric_limits<Real>::digits - significand_bits<W>) * (1 + 0x1p-20);
+
+  // On one grid the correctly rounded value is the nearest number of steps away; across a power of two the
+  // steps have two sizes.
+  static void set_distance(Finding& f, bool one_grid) {
+    const double low = std::floor(f.least + 0.5);
+    const double high = std::floor(f.greatest + 0.5);
+    if (one_grid && low == high && f.least != low - 0.5) {
+      f.distance = low;
+    } else if (one_grid && f.least == 0.5 && f.greatest == 0.5) {
+      f.distance = f.correctly_rounded ? 0 : 1;
+    } else {
+      f.distance = 2 * f.greatest + 2;
+      f.distance_known = false;
+    }
+  }
+
+  FunctionId id_;
+  BoundedFunction<W> function_;
+  std::vector<W> args_;
+  std::vector<W> results_;
+  std::vector<double> bounds_;
+};
+
+}  // namespace ulpgate

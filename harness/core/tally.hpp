@@ -1,0 +1,84 @@
+// Tally: counts findings of one part of one row into a Summary, as soon as nothing that is recorded can
+// depend on what they leave open.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "harness/core/finding.hpp"
+#include "harness/core/summary.hpp"
+
+namespace ulpgate {
+
+// What a finding still needs before it can be counted.
+enum class Need {
+  nothing,    // count it
+  condition,  // it may raise max_error_over_condition: count it, then look at the condition number
+  better,     // a better reference
+};
+
+class Tally {
+ public:
+  // `seen`: the maximum that other units of the row have found.
+  explicit Tally(Maximum seen) : seen_(seen) {}
+
+  // condition_bound() is a lower bound of the condition number at the sample, called only where it matters;
+  // `ratio_seen` is the largest error over condition so far.
+  template <class ConditionBound>
+  [[nodiscard]] Need need(const Finding& f, std::uint64_t k, double ratio_seen,
+                          ConditionBound&& condition_bound) const {
+    if (f.outcome != Outcome::finite || f.greatest == 0) return Need::nothing;
+    if (f.least != f.greatest) {
+      if (f.least == 0 || !same_bucket(f, k)) return Need::better;
+      if (could_raise_maximum(f, k) && !f.error_known()) return Need::better;
+    }
+    if (!f.distance_known && f.distance > summary_.max_distance) return Need::better;
+    if (f.greatest > 0.5 && f.greatest >= ratio_seen &&
+        f.greatest >= ratio_seen * (1 - 0x1p-38) * condition_bound()) {
+      return f.error_known() ? Need::condition : Need::better;
+    }
+    return Need::nothing;
+  }
+
+  // Of a finding that needs nothing better.
+  void count(const Finding& f, std::uint64_t k);
+
+  void raise_error_over_condition(double ratio) {
+    summary_.max_error_over_condition = std::max(summary_.max_error_over_condition, ratio);
+  }
+  [[nodiscard]] Maximum max_error() const { return summary_.max_error; }
+  [[nodiscard]] OracleComparison& oracle() { return summary_.oracle; }
+  // The summary of everything counted; ends the tally.
+  [[nodiscard]] Summary take();
+
+ private:
+  // Counts of one bucket; an error is rounded to one of its edges for the mean.
+  struct Bucket {
+    std::uint64_t count = 0;
+    std::uint64_t rounded_up = 0;
+  };
+  // Flat counts for errors up to 2^10 ULP; rarer ones go to the summary's map.
+  static constexpr int flat_least = UlpHistogram::least;
+  static constexpr int flat_greatest = 40;
+
+  [[nodiscard]] static bool same_bucket(const Finding& f, std::uint64_t k) {
+    const int bucket = UlpHistogram::bucket({f.least});
+    if (f.greatest > UlpHistogram::upper_edge(bucket)) return false;
+    const double threshold = rounding_threshold(bucket, k);
+    return (f.least > threshold) == (f.greatest > threshold);
+  }
+  [[nodiscard]] bool could_raise_maximum(const Finding& f, std::uint64_t k) const {
+    const Maximum& most = seen_.value > summary_.max_error.value ? seen_ : summary_.max_error;
+    // Rounding up to 40 bits adds less than this.
+    if (f.greatest * (1 + 0x1p-38) + 0x1p-39 < most.value) return false;
+    const double error = recorded({f.greatest}).value;
+    return error > most.value || (error == most.value && k < most.index);
+  }
+
+  Summary summary_;
+  Maximum seen_;
+  std::array<Bucket, flat_greatest - flat_least + 1> flat_{};
+};
+
+}  // namespace ulpgate
