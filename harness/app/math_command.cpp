@@ -98,6 +98,19 @@ void report_proofs(const std::vector<RowRecord>& records) {
   }
 }
 
+void report_stages(const RunResult& result) {
+  std::uint64_t all = 0;
+  for (const auto n : result.decided) all += n;
+  if (all == 0) return;
+  std::string text;
+  for (std::size_t s = 0; s < stage_count; ++s) {
+    if (result.decided[s] == 0) continue;
+    text += fmt::format("{}{} {:.3g} %", text.empty() ? "" : ", ", stage_names[s],
+                        100.0 * static_cast<double>(result.decided[s]) / static_cast<double>(all));
+  }
+  fmt::print(stderr, "ulpgate: decided by the stages of the reference: {} of {} samples\n", text, all);
+}
+
 unsigned threads_of(const MathOptions& o, const Ranks* ranks) {
   if (ranks == nullptr) return o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
   if (o.threads > 1) throw Failure(ExitCode::bad_input, "--threads: a rank is one thread; start more ranks");
@@ -139,6 +152,7 @@ ExitCode run_math(const MathOptions& o, Ranks* ranks) {
   }
   fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(),
              (out / math_records_file).string(), plan.hash());
+  report_stages(result);
   report_proofs(result.records);
   return report_oracles(result.records);
 }
@@ -163,10 +177,10 @@ void add_math_command(CLI::App& app, Action& action, const RanksOfJob& ranks) {
   math->add_option("--shard", o->shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")
       ->capture_default_str();
   math->add_option("--out", o->out, "directory of the records")->required();
-  math->add_option("--reference", o->reference,
-                   "full: MPFR at the precision of RealHP<4> for every sample; screened: a cheaper stage "
-                   "first, the same "
-                   "records")
+  math->add_option(
+          "--reference", o->reference,
+          "full: MPFR at the precision of RealHP<4> for every sample; screened: cheaper stages first, "
+          "the same records")
       ->capture_default_str()
       ->check(CLI::IsMember({"screened", "full"}));
   math->add_option("--worst-cases", o->worst_cases,

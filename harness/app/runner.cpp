@@ -162,6 +162,12 @@ class MathUnits {
     const CrashPlace place(row.function.name, row.engine->descriptor().token, name_of(row.source.stratum));
     return row.engine->evaluate(row.function, row.source, unit.first, unit.last, mode_, *hints_[unit.row]);
   }
+  [[nodiscard]] std::array<std::uint64_t, stage_count> decided() const {
+    std::array<std::uint64_t, stage_count> sum{};
+    for (const auto& hint : hints_)
+      for (std::size_t stage = 0; stage < stage_count; ++stage) sum[stage] += hint->decided[stage];
+    return sum;
+  }
 
  private:
   const Plan& plan_;
@@ -233,6 +239,7 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, Refer
   const UnitSummaries done = run_units(job, shard, threads, checkpoint, ranks);
   RunResult result;
   result.complete = done.complete;
+  result.decided = math.decided();
   for (std::size_t i = 0; i < done.rows.size(); ++i) {
     if (done.rows[i].empty()) continue;
     for (auto& record : finish_row(plan, plan.rows()[i], done.rows[i]))

@@ -1,6 +1,7 @@
 // Runner: works through units on several threads, stops cleanly on Ctrl-C.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct UnitSummaries {
 struct RunResult {
   std::vector<RowRecord> records;
   bool complete = true;
+  // Samples that each stage of the reference decided in this process, those of a checkpoint left out.
+  std::array<std::uint64_t, stage_count> decided{};
 };
 [[nodiscard]] RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode,
                                  Checkpoint& checkpoint, Ranks* ranks = nullptr);

@@ -9,7 +9,6 @@
 #include "harness/core/argument_lists.hpp"
 #include "harness/core/judging.hpp"
 #include "harness/core/local_polynomial.hpp"
-#include "harness/core/screened_judging.hpp"
 #include "harness/core/search.hpp"
 #include "harness/core/search_positions.hpp"
 #include "kernels/math/function_table.hpp"
@@ -17,7 +16,7 @@
 
 namespace ulpgate {
 
-// Stands for "no wider type": points are then ranked by the screened reference.
+// Stands for "no wider type": points are then ranked by MPFR with a few more bits.
 struct NoWideType {};
 
 // The error of `got` against `wide`, the same function in a type with at least 11 more bits, in ULP of Real.
@@ -119,19 +118,15 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
     if constexpr (has_wide) {
       if (!distrusted_) return rank_by_wide(points.size(), b, errors);
     }
-    b.judgements.resize(points.size() * parts());
-    // Never index 0 of a run: the share that is always checked belongs to measurements.
-    screened_.judge({function_, b.args, b.results, b.threw, 1}, b.judgements);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      errors[i] = ranked(worst(std::span(b.judgements).subspan(i * parts(), parts())));
+    FullJudging<Real> judging(function_, ranking_bits);
+    for (std::size_t i = 0; i < points.size(); ++i) errors[i] = ranked(judged(judging, b, i));
   }
 
   [[nodiscard]] Judgement confirm(const Point& x) const override {
     Buffers b;
     evaluate({&x, 1}, b);
-    b.judgements.resize(parts());
-    full_.judge({function_, b.args, b.results, b.threw}, b.judgements);
-    return worst(b.judgements);
+    FullJudging<Real> judging(function_);
+    return judged(judging, b, 0);
   }
 
   // Over 2^-10 of a binade a polynomial of low degree is good enough for most functions.
@@ -142,6 +137,7 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
  private:
   static constexpr bool has_wide = !std::same_as<Wide, NoWideType>;
   using WideReal = std::conditional_t<has_wide, Wide, Real>;
+  static constexpr long ranking_bits = std::numeric_limits<Real>::digits + 32;
 
   struct Buffers {
     std::vector<Real> args;
@@ -150,17 +146,20 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
     std::vector<WideReal> wide_args;
     std::vector<WideReal> wide_results;
     std::vector<std::uint8_t> wide_threw;
-    std::vector<Judgement> judgements;
   };
 
   [[nodiscard]] std::size_t parts() const { return static_cast<std::size_t>(function_.parts); }
 
-  // A mismatch of any part, else the part with the largest error.
-  static Judgement worst(std::span<const Judgement> parts) {
-    const auto mismatch =
-        std::ranges::find_if(parts, [](const Judgement& j) { return j.outcome != Outcome::finite; });
-    if (mismatch != parts.end()) return *mismatch;
-    return *std::ranges::max_element(parts, {}, [](const Judgement& j) { return j.error.value; });
+  // Of point i: a mismatch of any part, else the part with the largest error.
+  [[nodiscard]] Judgement judged(FullJudging<Real>& judging, const Buffers& b, std::size_t i) const {
+    const Batch<Real> batch{function_, b.args, b.results, b.threw};
+    judging.load(batch, i);
+    Judgement worst = judging.judgement(batch, i, 0);
+    for (std::size_t part = 1; part < parts() && worst.outcome == Outcome::finite; ++part) {
+      const Judgement j = judging.judgement(batch, i, part);
+      if (j.outcome != Outcome::finite || j.error > worst.error) worst = j;
+    }
+    return worst;
   }
   static double ranked(const Judgement& j) {
     return j.outcome == Outcome::finite ? j.error.value : std::numeric_limits<double>::infinity();
@@ -290,8 +289,6 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
   BatchFunction<Real> call_;
   BatchFunction<WideReal> wide_ = nullptr;
   bool distrusted_ = false;
-  FullJudging<Real> full_;
-  ScreenedJudging<Real> screened_;
 };
 
 }  // namespace ulpgate

@@ -83,7 +83,8 @@ class FullJudging {
  public:
   static constexpr long reference_bits = std::numeric_limits<RealHP<4, Real>>::digits;
 
-  explicit FullJudging(const FunctionInfo& f) : point_(f, reference_bits) {}
+  // Fewer bits are for a ranking, which decides nothing.
+  explicit FullJudging(const FunctionInfo& f, long bits = reference_bits) : point_(f, bits) {}
 
   // Evaluates point i; judgement(part) then judges its parts.
   void load(const Batch<Real>& batch, std::size_t i) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/core/search_elites.hpp"
+#include "harness/core/search_scales.hpp"
 #include "harness/core/search_target.hpp"
 
 namespace ulpgate {
@@ -52,7 +53,7 @@ class Search {
         seeds_(std::move(seeds)),
         seed_(seed),
         size_(size),
-        scales_(static_cast<std::size_t>(greatest_scale()) + 1, 1.0) {
+        scales_(least_scale, greatest_scale()) {
     // The same evaluations on many boxes with few points each, or on few with many.
     for (const std::size_t samples : {256U, 64U, 16U, 64U}) {
       // Points of a box lie far apart and cost most: large rounds, of cheap points, give them less.
@@ -113,7 +114,7 @@ class Search {
     confirm_suspects();
     advance_climbers();
     advance_beams();
-    for (auto& weight : scales_) weight = 1 + 0.98 * (weight - 1);
+    scales_.forget();
   }
 
   [[nodiscard]] const Found& best() const { return best_; }
@@ -143,7 +144,7 @@ class Search {
     std::size_t restarts;
   };
   // Nearer than that a climb looks at every number.
-  static constexpr std::size_t least_scale = 6;
+  static constexpr int least_scale = 6;
   static constexpr std::size_t climb_batch = 128;
   static constexpr std::size_t confirmed_a_round = 8;
   static constexpr std::size_t suspects_a_round = 4;
@@ -164,7 +165,7 @@ class Search {
     for (std::size_t a = 0; a < arity_; ++a) {
       if (b.kind == Kind::climb) {
         if (arity_ > 1 && (random.word() & 1U) != 0) continue;
-        x[a] = near(x[a], climb_scale(random), a, random);
+        x[a] = near(x[a], climb_scale(random, target_.significand_bits()), a, random);
         continue;
       }
       if (b.scale[a] < 0) continue;
@@ -233,23 +234,6 @@ class Search {
     return box;
   }
 
-  int chosen_scale(SearchRandom& random) const {
-    double total = 0;
-    for (std::size_t j = least_scale; j < scales_.size(); ++j) total += scales_[j];
-    double at = std::ldexp(static_cast<double>(random.word() >> 11U), -53) * total;
-    for (std::size_t j = least_scale; j < scales_.size(); ++j) {
-      at -= scales_[j];
-      if (at < 0) return static_cast<int>(j);
-    }
-    return static_cast<int>(scales_.size()) - 1;
-  }
-
-  // Small scales more often than large ones, up to half of the bits of a significand.
-  int climb_scale(SearchRandom& random) const {
-    const auto most = static_cast<std::uint64_t>(std::max(target_.significand_bits() / 2, 2));
-    return static_cast<int>(random.below(random.below(most) + 1)) + 1;
-  }
-
   void add_climb_batches() {
     for (auto& climber : climbers_) {
       Batch b;
@@ -298,7 +282,7 @@ class Search {
       const std::size_t sure = random.below(arity_);
       for (std::size_t a = 0; a < arity_; ++a) {
         const bool moves = a == sure || (random.word() & 1U) != 0;
-        b.scale[a] = moves ? chosen_scale(random) : -1;
+        b.scale[a] = moves ? scales_.chosen(random) : -1;
         b.reach[a] = b.scale[a];
         if (arity_ > 1 || b.scale[a] <= target_.cheap_scale()) continue;
         // Far away, but close together.
@@ -336,8 +320,7 @@ class Search {
       ++confirmations_;
       if (!(std::fabs(estimate - b.box.error) <= 0.02 + 0.02 * std::fabs(b.box.error))) ++lies_;
       if (b.kind == Kind::neighbourhood && b.box.error > b.parent) {
-        for (const int scale : b.scale)
-          if (scale >= 0) scales_[static_cast<std::size_t>(scale)] += 1;
+        for (const int scale : b.scale) scales_.reward(scale);
       }
     }
     if (!distrusted_ && lies_ >= 32 && 2 * lies_ > confirmations_) {
@@ -404,7 +387,7 @@ class Search {
   bool distrusted_ = false;
   std::vector<Batch> batches_;
   std::vector<Beam> beams_;
-  std::vector<double> scales_;
+  SearchScales scales_;
   std::vector<SearchElite<Position>> climbers_;
   Found best_;
   std::map<Outcome, Mismatch> mismatches_;

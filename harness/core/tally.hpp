@@ -73,7 +73,8 @@ class Tally {
     // Rounding up to 40 bits adds less than this.
     if (f.greatest * (1 + 0x1p-38) + 0x1p-39 < most.value) return false;
     const double error = recorded({f.greatest}).value;
-    return error > most.value || (error == most.value && k < most.index);
+    // The sample that made the maximum says so again when its unit is evaluated once more.
+    return error > most.value || (error == most.value && k <= most.index);
   }
 
   Summary summary_;
