@@ -65,8 +65,8 @@ TEST(Positions, OfTheWholeOfBinary128FitTheirWidth) {
 #endif
 }
 
-// A bottomless sea with small waves, and one spike of a width of 2^-30 of the space that rises towards its
-// top.
+// A flat sea with small waves, and one spike, 2^-15 of the space wide at its foot (2^-7 in two dimensions), that
+// rises towards its top.
 class PlantedSpike final : public SearchTarget<__int128> {
  public:
   explicit PlantedSpike(std::size_t arity) : arity_(arity) {}
@@ -88,7 +88,7 @@ class PlantedSpike final : public SearchTarget<__int128> {
       waves = SearchRandom(waves ^ static_cast<std::uint64_t>(x[i])).word();
     }
     const double noise = std::ldexp(static_cast<double>(waves >> 11U), -54);
-    return noise + std::max(0.0, 8 - sum / static_cast<double>(arity_) / 4);
+    return noise + std::max(0.0, 8 - sum / static_cast<double>(arity_) / (arity_ == 1 ? 6 : 7.5));
   }
   void rank(std::span<const SearchPoint<__int128>> points, std::span<double> errors) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -126,8 +126,8 @@ Search<__int128>::Found hunted(std::size_t arity, std::uint64_t evaluations, std
 }
 
 TEST(Search, FindsAPlantedSpike) {
-  // Random points come within 2^-20 of the space at best, where the spike is 8 - 43/4 < 0 high: nothing to
-  // see. Half a wave is 0.5, the spike 8.
+  // The waves are 0.5 high, the spike 8.  The nearest of so many random points comes within 2^42 of it
+  // (2^52 in two dimensions), where it is 1 high.
   EXPECT_GT(hunted(1, 1U << 21U, 1, false).error, 7.5);
   EXPECT_GT(hunted(2, 1U << 22U, 1, false).error, 6);
 }

@@ -20,7 +20,7 @@ void Tally::count(const Finding& f, std::uint64_t k) {
     return;
   }
   // An error that is not known to the last recorded bit cannot raise the maximum.
-  if (f.greatest >= s.max_error.value * (1 - 0x1p-38) && f.error_known())
+  if (reaches(f.greatest, s.max_error.value) && f.error_known())
     s.max_error.add(recorded({f.greatest}).value, k);
   const int bucket = UlpHistogram::bucket({f.greatest});
   const bool up = f.greatest > rounding_threshold(bucket, k);

@@ -62,6 +62,10 @@ class Tally {
   static constexpr int flat_least = UlpHistogram::least;
   static constexpr int flat_greatest = 40;
 
+  // Whether an error may be as large as a recorded one: rounding up to 40 bits adds less than this.
+  [[nodiscard]] static bool reaches(double error, double recorded_error) {
+    return error * (1 + 0x1p-38) + 0x1p-39 >= recorded_error;
+  }
   [[nodiscard]] static bool same_bucket(const Finding& f, std::uint64_t k) {
     const int bucket = UlpHistogram::bucket({f.least});
     if (f.greatest > UlpHistogram::upper_edge(bucket)) return false;
@@ -70,8 +74,7 @@ class Tally {
   }
   [[nodiscard]] bool could_raise_maximum(const Finding& f, std::uint64_t k) const {
     const Maximum& most = seen_.value > summary_.max_error.value ? seen_ : summary_.max_error;
-    // Rounding up to 40 bits adds less than this.
-    if (f.greatest * (1 + 0x1p-38) + 0x1p-39 < most.value) return false;
+    if (!reaches(f.greatest, most.value)) return false;
     const double error = recorded({f.greatest}).value;
     // The sample that made the maximum says so again when its unit is evaluated once more.
     return error > most.value || (error == most.value && k <= most.index);
