@@ -98,8 +98,11 @@ class Engine final : public TypeEngine {
     std::vector<std::uint8_t> threw(batch_size);
     const std::uint64_t stride =
         source.stratum == Stratum::exhaustive ? exhaustive_oracle_stride : oracle_stride;
-    for (std::uint64_t k = first; k < last; k += batch_size) {
-      const std::size_t n = std::min<std::uint64_t>(batch_size, last - k);
+    // Nothing is known yet of a row's maxima: small batches find them before many samples climb for being one.
+    std::size_t most = tally.knows_maxima() ? batch_size : 4;
+    std::size_t n = 0;
+    for (std::uint64_t k = first; k < last; k += n, most = std::min(2 * most, batch_size)) {
+      n = std::min<std::uint64_t>(most, last - k);
       for (std::size_t i = 0; i < n; ++i) arguments.make(k + i, &args[i * arity]);
       std::fill(threw.begin(), threw.end(), std::uint8_t{0});
       function(f)(args.data(), results.data(), threw.data(), n);

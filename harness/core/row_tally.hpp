@@ -29,6 +29,9 @@ class RowTally {
       parts_.emplace_back(hint.max_error(static_cast<std::size_t>(part)));
   }
 
+  // Whether other units of the row have found maxima, which spare this one most of its search for them.
+  [[nodiscard]] bool knows_maxima() const { return hint_.max_error(0).index != no_index; }
+
   // Counts the sample if its findings, one a part, say enough; false if a better reference is needed.
   // values[part]: the exact value, to 2^-20 at least.
   bool settle(std::span<const Finding> findings, std::uint64_t k, const Real* args,
