@@ -98,7 +98,8 @@ class Engine final : public TypeEngine {
     std::vector<std::uint8_t> threw(batch_size);
     const std::uint64_t stride =
         source.stratum == Stratum::exhaustive ? exhaustive_oracle_stride : oracle_stride;
-    // Nothing is known yet of a row's maxima: small batches find them before many samples climb for being one.
+    // Nothing is known yet of a row's maxima: small batches find them before many samples climb for being
+    // one.
     std::size_t most = tally.knows_maxima() ? batch_size : 4;
     std::size_t n = 0;
     for (std::uint64_t k = first; k < last; k += n, most = std::min(2 * most, batch_size)) {

@@ -65,8 +65,8 @@ TEST(Positions, OfTheWholeOfBinary128FitTheirWidth) {
 #endif
 }
 
-// A flat sea with small waves, and one spike, 2^-15 of the space wide at its foot (2^-7 in two dimensions), that
-// rises towards its top.
+// A flat sea with small waves, and one spike, 2^-15 of the space wide at its foot (2^-7 in two dimensions),
+// that rises towards its top.
 class PlantedSpike final : public SearchTarget<__int128> {
  public:
   explicit PlantedSpike(std::size_t arity) : arity_(arity) {}
