@@ -93,8 +93,10 @@ std::vector<Finding> judge_scenes(const std::vector<SceneMeasurement>& measured,
   }
   for (const auto& [scene, rows] : budgets) {
     for (const auto& [key, budget] : rows) {
-      const bool found = std::ranges::any_of(
-          measured, [&](const auto& m) { return m.scene == scene && scene_budget_key(m) == key; });
+      const bool found = std::ranges::any_of(measured, [&scene = scene, &key = key](const auto& m) {
+        // By name: clang 14 captures no structured bindings.
+        return m.scene == scene && scene_budget_key(m) == key;
+      });
       if (!found && missing == MissingRecords::fail) {
         const std::size_t space = key.find(' ');
         findings.push_back({FindingKind::missing_record,
