@@ -77,21 +77,21 @@ class ScreenedJudging {
     std::array<Finding, max_parts> findings;
   };
 
-  static auto x87_stage(FunctionId f, const ScreenStages& s) {
+  static auto x87_stage([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
     if constexpr (NativeBits<long double>) {
       return std::tuple(NativeStage<Real, long double, Stage::x87_extended>(f, s.x87_extended));
     } else {
       return std::tuple();
     }
   }
-  static auto binary128_stage(FunctionId f, const ScreenStages& s) {
+  static auto binary128_stage([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
 #ifdef ULPGATE_HAVE_FLOAT128
     return std::tuple(NativeStage<Real, Binary128, Stage::binary128>(f, s.binary128));
 #else
     return std::tuple();
 #endif
   }
-  static auto native_stages(FunctionId f, const ScreenStages& s) {
+  static auto native_stages([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
     if constexpr (std::same_as<Real, float>) {
       return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
                             x87_stage(f, s), binary128_stage(f, s));
