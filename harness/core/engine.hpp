@@ -11,10 +11,13 @@
 
 namespace ulpgate {
 
-// One in this many samples is also evaluated with the family's RealHP<4>, chosen by its index.
-inline constexpr std::uint64_t oracle_stride = 251;
-// Of the 2^32 points of an exhaustive row one in this many: a prime, 65536 comparisons a row.
-inline constexpr std::uint64_t exhaustive_oracle_stride = 65537;
+// One in this many samples is also evaluated with the family's RealHP<4>, chosen by its index: of a large row
+// fewer, since it costs a hundred times the sample.
+[[nodiscard]] constexpr std::uint64_t oracle_stride(const StratumSource& source) {
+  constexpr std::uint64_t small_row = std::uint64_t{1} << 18U;
+  if (source.stratum == Stratum::exhaustive) return 65537;
+  return source.count <= small_row ? 251 : 4093;
+}
 // The oracles agree when they differ by less than this, in ULP of Real; both carry some 3 p bits more than
 // Real.
 inline constexpr double oracle_tolerance_ulp = 0x1p-16;
@@ -96,8 +99,7 @@ class Engine final : public TypeEngine {
     std::vector<Real> args(batch_size * arity);
     std::vector<Real> results(batch_size * parts);
     std::vector<std::uint8_t> threw(batch_size);
-    const std::uint64_t stride =
-        source.stratum == Stratum::exhaustive ? exhaustive_oracle_stride : oracle_stride;
+    const std::uint64_t stride = oracle_stride(source);
     // Nothing is known yet of a row's maxima: small batches find them before many samples climb for being
     // one.
     std::size_t most = tally.knows_maxima() ? batch_size : 4;

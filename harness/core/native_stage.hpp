@@ -42,6 +42,8 @@ class NativeStage {
     const NumberBits bits = bits_of(value);
     const NumberBits got_bits = bits_of(got);
     const double bound = bounds_[i];
+    if (bound >= 0 && bits.normal && (got == 0 || std::isinf(got)))
+      return find_beyond_range(bits, value, got, finding);
     if (!(bound >= 0) || !bits.normal || !got_bits.normal || bits.exponent < least_exponent ||
         bits.exponent > greatest_exponent || std::abs(got_bits.exponent - bits.exponent) > 50 ||
         (got < 0) != (value < 0)) {
@@ -57,9 +59,8 @@ class NativeStage {
     double least = error - slack;
     double greatest = error + slack;
     // Next to a power of two the exact value may lie in the other binade, where the spacing is half or
-    // double. 32 bits say how near; bounds are below 2^20 ulp and W has 52 bits and more behind the leading
-    // one.
-    const bool next_to_power = !exact && (bits.fraction == 0 || bits.fraction == 0xffffffffU);
+    // double.
+    const bool next_to_power = !exact && may_cross_power(bits, value, slack);
     if (next_to_power) {
       if (bits.fraction == 0) {
         greatest = 2 * (error + 2 * slack);
@@ -90,6 +91,35 @@ class NativeStage {
   }
 
  private:
+  // Whether there is a power of two within twice `slack`, in ULP of Real, of the value.
+  [[nodiscard]] static bool may_cross_power(const NumberBits& bits, W value, double slack) {
+    // 32 bits say whether to look closer: bounds are below 2^20 ulp of W, which has 52 bits behind the first.
+    const bool above = bits.fraction == 0;
+    if (!above && bits.fraction != 0xffffffffU) return false;
+    const W size = value < 0 ? -value : value;
+    const auto power = static_cast<W>(power_of_two(above ? bits.exponent : bits.exponent + 1));
+    const auto gap = static_cast<double>(above ? size - power : power - size);
+    return gap * power_of_two(std::numeric_limits<Real>::digits - 1 - bits.exponent) <= 2 * slack;
+  }
+
+  // A result of 0 or infinity where the exact value is far beyond what Real has; next to the ends of the
+  // range, and where that is not so, the stage has no say.
+  [[nodiscard]] static bool find_beyond_range(const NumberBits& bits, W value, Real got, Finding& finding) {
+    using L = std::numeric_limits<Real>;
+    if (std::signbit(got) != (value < 0)) return false;
+    if (got != 0) {
+      // Twice the greatest power of two and more: bounds are far below half of the value.
+      if (bits.exponent <= L::max_exponent) return false;
+      finding = finding_of({});
+      return true;
+    }
+    // |value| < 2^(exponent + 1), in units of the least subnormal.
+    const int size = bits.exponent + 1 - (L::min_exponent - L::digits);
+    if (size > -20) return false;
+    finding = {Outcome::finite, smallest_error, power_of_two(std::max(size, -900) + 1), 0, true, true};
+    return true;
+  }
+
   // One ulp of W in ulp of Real, with a margin.
   static constexpr double unit =
       power_of_two(std::numeric_limits<Real>::digits - significand_bits<W>) * (1 + 0x1p-20);

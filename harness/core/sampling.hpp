@@ -30,7 +30,7 @@ Real on_minus_100_100(std::span<const std::uint64_t> words) {
   if constexpr (NativeReal<Real>) {
     const __int128 v =
         static_cast<__int128>(200) * static_cast<__int128>(words[0]) - (static_cast<__int128>(100) << 64U);
-    return std::ldexp(static_cast<Real>(v), -64);
+    return static_cast<Real>(v) * Real(0x1p-64);  // exact
   } else {
     mpz_t z;
     mpz_t offset;

@@ -2,6 +2,7 @@
 #include "harness/core/summary.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 
@@ -11,6 +12,18 @@ namespace {
 // 2^(-3/4), 2^(-2/4), 2^(-1/4), 1: correctly rounded constants, so that buckets do not depend on a libm.
 constexpr std::array<double, 4> quarter_octaves = {0x1.306fe0a31b715p-1, 0x1.6a09e667f3bcdp-1,
                                                    0x1.ae89f995ad3adp-1, 1.0};
+// The edges of the buckets that nearly all errors fall into.
+constexpr int tabled = 40;
+constexpr auto edges = [] {
+  std::array<double, tabled - UlpHistogram::least + 1> table{};
+  for (int i = UlpHistogram::least; i <= tabled; ++i) {
+    // bucket = 4 (exponent - 1) + quarter + 1 with quarter in 0..3
+    const auto power = static_cast<std::uint64_t>(((i - 1) >> 2) + 1 + 1023);
+    table[static_cast<std::size_t>(i - UlpHistogram::least)] =
+        quarter_octaves[static_cast<std::size_t>((i - 1) & 3)] * std::bit_cast<double>(power << 52U);
+  }
+  return table;
+}();
 constexpr double sum_unit = 0x1p-40;
 constexpr double sum_limit = 0x1p60;
 }  // namespace
@@ -18,8 +31,10 @@ constexpr double sum_limit = 0x1p60;
 int UlpHistogram::bucket(Ulp error) {
   if (!std::isfinite(error.value)) return greatest;
   if (error.value <= 0x1p-6) return least;
-  int exponent = 0;
-  const double m = std::frexp(error.value, &exponent);  // [1/2, 1)
+  // frexp of a normal number: m in [1/2, 1).
+  const auto bits = std::bit_cast<std::uint64_t>(error.value);
+  const int exponent = static_cast<int>(bits >> 52U) - 1022;
+  const auto m = std::bit_cast<double>((bits & 0xfffffffffffffU) | 0x3fe0000000000000U);
   // (2^-1, 2^-3/4] is the first bucket of the octave; 2^-1 itself is the last of the octave below.
   int quarter = m == 0.5 ? -1 : 0;
   if (quarter == 0) {
@@ -31,10 +46,8 @@ int UlpHistogram::bucket(Ulp error) {
 }
 
 double UlpHistogram::upper_edge(int bucket) {
-  // bucket = 4 (exponent - 1) + quarter + 1 with quarter in 0..3
-  const int octave = (bucket - 1) >= 0 ? (bucket - 1) / 4 : -((-(bucket - 1) + 3) / 4);
-  const int quarter = bucket - 1 - 4 * octave;
-  return std::ldexp(quarter_octaves[static_cast<std::size_t>(quarter)], octave + 1);
+  if (bucket >= least && bucket <= tabled) return edges[static_cast<std::size_t>(bucket - least)];
+  return std::ldexp(quarter_octaves[static_cast<std::size_t>((bucket - 1) & 3)], ((bucket - 1) >> 2) + 1);
 }
 
 double UlpHistogram::lower_edge(int bucket) {
