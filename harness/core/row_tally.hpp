@@ -36,6 +36,7 @@ class RowTally {
   // values[part]: the exact value, to 2^-20 at least.
   bool settle(std::span<const Finding> findings, std::uint64_t k, const Real* args,
               std::span<const long double> values) {
+    if (parts_.size() == 1 && parts_[0].count_ordinary(findings[0], k)) return true;
     std::array<Need, max_parts> needs{};
     for (std::size_t part = 0; part < parts_.size(); ++part) {
       const double ratio = hint_.error_over_condition[part].load(std::memory_order_relaxed);

@@ -97,19 +97,20 @@ TEST(Arguments, BinadesReachEveryExponentAndSubnormals) {
 TEST(Arguments, OfTheExhaustiveStratumAreTheBitPatternsOfFloat) {
   const Arguments<float> arguments(info_of(FunctionId::sin),
                                    {Stratum::exhaustive, 1, exhaustive_count, nullptr});
-  struct Case {
-    std::uint64_t k;
-    float want;
-  };
-  for (const auto& [k, want] :
-       {Case{0, 0.0F}, Case{1, 0x1p-149F}, Case{0x3f800000, 1.0F}, Case{0xbf800000, -1.0F}}) {
-    float x = -7;
-    arguments.make(k, &x);
-    EXPECT_EQ(x, want);
-  }
   float x = 0;
-  arguments.make(exhaustive_count - 1, &x);
-  EXPECT_TRUE(std::isnan(x));
+  arguments.make(0, &x);
+  EXPECT_EQ(x, 1.0F) << "large errors are found first";
+  arguments.make(1, &x);
+  EXPECT_EQ(x, 1.0F + 0x1p-23F);
+  std::vector<bool> seen(4096);
+  for (std::uint64_t block = 0; block < 4096; ++block) {
+    const std::uint64_t k = (block << 20U) | 12345U;
+    arguments.make(k, &x);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(x), detail::exhaustive_pattern(k));
+    EXPECT_EQ(detail::exhaustive_pattern(k) & 0xfffffU, 12345U);
+    seen[detail::exhaustive_pattern(k) >> 20U] = true;
+  }
+  EXPECT_EQ(std::ranges::count(seen, true), 4096) << "every block once";
 }
 
 TEST(HardArguments, FindTheWorstCaseOfTrigonometricReductionInDouble) {

@@ -84,13 +84,8 @@ double UlpHistogram::quantile(double fraction) const {
 
 double rounding_threshold(int bucket, std::uint64_t k) {
   if (bucket == UlpHistogram::least) return 0;
-  // SplitMix64's finalizer (Steele, Lea, Flood: "Fast splittable pseudorandom number generators", 2014).
-  std::uint64_t z = k + 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  z ^= z >> 31U;
   const double lower = UlpHistogram::lower_edge(bucket);
-  return lower + static_cast<double>(z >> 11U) * 0x1p-53 * (UlpHistogram::upper_edge(bucket) - lower);
+  return lower + counter_fraction(k) * (UlpHistogram::upper_edge(bucket) - lower);
 }
 
 void UlpSum::add(Ulp error, std::uint64_t k) {

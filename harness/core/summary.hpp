@@ -42,6 +42,16 @@ class UlpHistogram {
 // is rounded up always.
 [[nodiscard]] double rounding_threshold(int bucket, std::uint64_t k);
 
+// A number of [0, 1) from a counter: SplitMix64's finalizer (Steele, Lea, Flood: "Fast splittable
+// pseudorandom number generators", 2014).
+[[nodiscard]] inline double counter_fraction(std::uint64_t k) {
+  std::uint64_t z = k + 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  z ^= z >> 31U;
+  return static_cast<double>(z >> 11U) * 0x1p-53;
+}
+
 // The sum of errors, each rounded to an edge of its bucket, as an integer over 2^-40 ULP, so that order does
 // not matter.  One error counts at most 2^60 ULP: beyond that a mean says nothing, the maximum and the
 // histogram do.

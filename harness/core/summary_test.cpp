@@ -1,16 +1,27 @@
 // Tests of summaries: exact sums, histograms, and that merging in any order gives the same.
-#include "harness/core/summary.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "harness/core/ordinary_errors.hpp"
 #include "harness/core/summary_text.hpp"
 
 namespace ulpgate {
 namespace {
+
+void expect_equal(const Summary& a, const Summary& b) {
+  EXPECT_EQ(a.samples, b.samples);
+  EXPECT_EQ(a.outcomes, b.outcomes);
+  EXPECT_EQ(a.first_index, b.first_index);
+  EXPECT_EQ(a.max_error.value, b.max_error.value);
+  EXPECT_EQ(a.max_error.index, b.max_error.index);
+  EXPECT_EQ(a.max_distance, b.max_distance);
+  EXPECT_EQ(a.histogram.counts, b.histogram.counts);
+  EXPECT_EQ(a.sum.to_text(), b.sum.to_text());
+  EXPECT_EQ(a.correctly_rounded, b.correctly_rounded);
+}
 
 TEST(Histogram, BucketsHoldTheirUpperEdge) {
   for (int i = UlpHistogram::least; i < 400; i += i < UlpHistogram::finest ? 4 : 1) {
@@ -23,6 +34,37 @@ TEST(Histogram, BucketsHoldTheirUpperEdge) {
   }
   EXPECT_EQ(UlpHistogram::bucket({1e-300}), UlpHistogram::least);
   EXPECT_EQ(UlpHistogram::bucket({HUGE_VAL}), UlpHistogram::greatest);
+}
+
+TEST(OrdinaryErrors, AreTheHistogramsBucketsAndThresholds) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 20000; ++i) {
+    const double error =
+        i < 9 ? OrdinaryErrors::upper[static_cast<std::size_t>(i)]
+              : std::ldexp(static_cast<double>(random() >> 11U), -54 - static_cast<int>(random() % 12));
+    if (error == 0) continue;
+    const std::size_t slot = OrdinaryErrors::slot(error);
+    const int bucket = UlpHistogram::bucket({error});
+    EXPECT_EQ(OrdinaryErrors::buckets[slot], bucket) << error;
+    EXPECT_EQ(OrdinaryErrors::upper[slot], UlpHistogram::upper_edge(bucket));
+    const std::uint64_t k = random();
+    EXPECT_EQ(OrdinaryErrors::threshold(slot, k), rounding_threshold(bucket, k));
+  }
+}
+
+TEST(OrdinaryErrors, CountAsASummaryDoes) {
+  OrdinaryErrors ordinary;
+  Summary want;
+  Summary got;
+  for (std::uint64_t k = 5; k < 5000; ++k) {
+    const double error = std::ldexp(static_cast<double>(k), -14);
+    want.add({Outcome::finite, {error}, 0, true}, k);
+    got.max_error.add(error, k);
+    if (!ordinary.count(error, error, k)) got.add({Outcome::finite, {error}, 0, true}, k);
+  }
+  ordinary.add_to(got);
+  expect_equal(want, got);
+  EXPECT_FALSE(ordinary.count(0.24, 0.26, 1)) << "two buckets";
 }
 
 TEST(Histogram, Quantiles) {
@@ -47,18 +89,6 @@ Summary random_part(std::mt19937& random, std::uint64_t first, std::uint64_t las
     s.add(j, k);
   }
   return s;
-}
-
-void expect_equal(const Summary& a, const Summary& b) {
-  EXPECT_EQ(a.samples, b.samples);
-  EXPECT_EQ(a.outcomes, b.outcomes);
-  EXPECT_EQ(a.first_index, b.first_index);
-  EXPECT_EQ(a.max_error.value, b.max_error.value);
-  EXPECT_EQ(a.max_error.index, b.max_error.index);
-  EXPECT_EQ(a.max_distance, b.max_distance);
-  EXPECT_EQ(a.histogram.counts, b.histogram.counts);
-  EXPECT_EQ(a.sum.to_text(), b.sum.to_text());
-  EXPECT_EQ(a.correctly_rounded, b.correctly_rounded);
 }
 
 TEST(Summary, MergesInAnyOrder) {

@@ -43,6 +43,8 @@ Summary Tally::take() {
     summary_.sum.add_edges(UlpHistogram::lower_edge(i), b.count - b.rounded_up);
   }
   flat_ = {};
+  ordinary_.add_to(summary_);
+  ordinary_ = {};
   return std::move(summary_);
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "harness/core/finding.hpp"
+#include "harness/core/ordinary_errors.hpp"
 #include "harness/core/summary.hpp"
 
 namespace ulpgate {
@@ -22,6 +23,14 @@ class Tally {
  public:
   // `seen`: the maximum that other units of the row have found.
   explicit Tally(Maximum seen) : seen_(seen) {}
+
+  // Counts the finding where that can be said at once: a correctly rounded result that is no maximum.
+  [[nodiscard]] bool count_ordinary(const Finding& f, std::uint64_t k) {
+    if (!(f.least > 0) || f.greatest > 0.5 || f.outcome != Outcome::finite || !f.correctly_rounded)
+      return false;
+    if (reaches(f.greatest, std::max(seen_.value, summary_.max_error.value))) return false;
+    return ordinary_.count(f.least, f.greatest, k);
+  }
 
   // condition_bound() is a lower bound of the condition number at the sample, called only where it matters;
   // `ratio_seen` is the largest error over condition so far.
@@ -82,6 +91,7 @@ class Tally {
 
   Summary summary_;
   Maximum seen_;
+  OrdinaryErrors ordinary_;
   std::array<Bucket, flat_greatest - flat_least + 1> flat_{};
 };
 
