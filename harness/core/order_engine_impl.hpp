@@ -37,7 +37,8 @@ class OrderEngineOf final : public OrderEngine {
     const ode::SolvedProblem<Real>& solved = find(problem);
     const int exponent = interval_exponent(ode::find_integrator(integrator).order, most_steps);
     const Real t = ldexp(Real(1), exponent);
-    const Real floor = 1024 * std::numeric_limits<Real>::epsilon();
+    // The floor of rounding is highest where weights are large and of both signs, as in extrapolation.
+    const Real floor = 4096 * std::numeric_limits<Real>::epsilon();
     OrderLadder out;
     out.t_end = static_cast<double>(t);
     int below = 0;
