@@ -42,8 +42,7 @@ class NativeStage {
     const NumberBits bits = bits_of(value);
     const NumberBits got_bits = bits_of(got);
     const double bound = bounds_[i];
-    if (bound >= 0 && bits.normal && (got == 0 || std::isinf(got)))
-      return find_beyond_range(bits, value, got, finding);
+    if (bound >= 0 && (got == 0 || !std::isfinite(got))) return find_special(bits, value, got, finding);
     if (!(bound >= 0) || !bits.normal || !got_bits.normal || bits.exponent < least_exponent ||
         bits.exponent > greatest_exponent || std::abs(got_bits.exponent - bits.exponent) > 50 ||
         (got < 0) != (value < 0)) {
@@ -102,21 +101,30 @@ class NativeStage {
     return gap * power_of_two(std::numeric_limits<Real>::digits - 1 - bits.exponent) <= 2 * slack;
   }
 
-  // A result of 0 or infinity where the exact value is far beyond what Real has; next to the ends of the
-  // range, and where that is not so, the stage has no say.
-  [[nodiscard]] static bool find_beyond_range(const NumberBits& bits, W value, Real got, Finding& finding) {
+  // Results of 0, infinity and NaN: the two agree, or the exact value lies far beyond what Real has.  Next to
+  // the ends of the range, and where they differ, the stage has no say.
+  [[nodiscard]] static bool find_special(const NumberBits& bits, W value, Real got, Finding& finding) {
     using L = std::numeric_limits<Real>;
-    if (std::signbit(got) != (value < 0)) return false;
-    if (got != 0) {
-      // Twice the greatest power of two and more: bounds are far below half of the value.
-      if (bits.exponent <= L::max_exponent) return false;
+    if (std::isnan(got) || value != value) {
+      if (!std::isnan(got) || value == value) return false;
       finding = finding_of({});
       return true;
     }
-    // |value| < 2^(exponent + 1), in units of the least subnormal.
+    if (std::signbit(got) != std::signbit(static_cast<double>(value))) return false;
+    if (got != 0) {
+      // A pole, or twice the greatest power of two and more: bounds are far below half of the value.  Where W
+      // has the exponents of Real its infinity says too little.
+      const bool infinite = value - value != 0;
+      if (infinite ? std::same_as<Real, long double> : !bits.normal || bits.exponent <= L::max_exponent)
+        return false;
+      finding = finding_of({});
+      return true;
+    }
+    // |value| < 2^(exponent + 1), in units of the least subnormal.  A zero of W may be an exact one.
     const int size = bits.exponent + 1 - (L::min_exponent - L::digits);
-    if (size > -20) return false;
-    finding = {Outcome::finite, smallest_error, power_of_two(std::max(size, -900) + 1), 0, true, true};
+    if (!bits.normal || size > -20) return false;
+    const double greatest = power_of_two(std::max(size, -900) + 1);
+    finding = {Outcome::finite, smallest_error, greatest, 0, true, true};
     return true;
   }
 
