@@ -13,7 +13,8 @@ using Binary128 = __float128;
 
 // Evaluates f at `count` points: args holds count * arity values.  |results[i] - f(args of i)| is at most
 // bounds[i] ulp of results[i] in W, wherever results[i] is a normal number of W; a negative bound says that
-// nothing is known.  `argument_bits`: the arguments have no more significant bits than that, which makes some
+// nothing is known.  Otherwise a NaN says that f is not defined there, and an infinity that it has a pole or
+// exceeds W.  `argument_bits`: the arguments have no more significant bits than that, which makes some
 // operations exact.
 template <class W>
 using BoundedFunction = void (*)(const W* args, W* results, double* bounds, std::size_t count,

@@ -95,13 +95,6 @@ Ulp recorded(Ulp error) {
   return {std::ldexp(std::ceil(std::ldexp(error.value, -unit)), unit)};
 }
 
-bool same_record(const Judgement& a, const Judgement& b) {
-  if (a.outcome != b.outcome) return false;
-  if (a.outcome != Outcome::finite) return true;
-  return recorded(a.error) == recorded(b.error) && a.distance == b.distance &&
-         a.correctly_rounded == b.correctly_rounded;
-}
-
 Judgement judge(mpfr_srcptr got, mpfr_srcptr exact, const FloatFormat& format) {
   const WideExponentRange wide;
   if (mpfr_nan_p(exact)) return mpfr_nan_p(got) ? Judgement{} : mismatch(Outcome::not_nan);

@@ -62,8 +62,6 @@ struct Judgement {
 // The error as it is recorded: rounded up to 40 significant bits and to a multiple of 2^-40 ULP.  A reference
 // of bounded error can then prove what is recorded, and no number looks better than it is.
 [[nodiscard]] Ulp recorded(Ulp error);
-// Whether two judgements leave the same traces in a record.
-[[nodiscard]] bool same_record(const Judgement& a, const Judgement& b);
 
 // Judges `got` (a value of the format, or NaN or an infinity) against the unrounded `exact`.  Where exactly
 // one of the two is infinite and the exact value lies within 1 ULP of the overflow threshold 2^(emax+1),
