@@ -175,8 +175,10 @@ double evaluate(const W* a, W& result, int argument_bits) {
     result = product + a[2];
     return products_are_exact ? bound_of_sum<W>(result, product, a[2]) : -1;
   } else if constexpr (Id == lgamma) {
-    // Only absolutely accurate next to the zeros between its poles.
-    if (!(a[0] > 0)) return -1;
+    // libquadmath's is only absolutely accurate next to the zeros between its poles.
+    if constexpr (digits_of<W> == 113) {
+      if (!(a[0] > 0)) return -1;
+    }
     // The C library's own notes the sign in a variable that all threads share.
     int sign = 0;
     if constexpr (std::is_same_v<W, double>) {
@@ -192,8 +194,10 @@ double evaluate(const W* a, W& result, int argument_bits) {
     if constexpr (Id == sin || Id == cos || Id == tan) {
       const W size = a[0] < 0 ? -a[0] : a[0];
       if constexpr (std::is_same_v<W, double>) {
-        if (size > 0x1p20) return 0x1p19;
-      } else {
+        // The error of the argument reduction is absolute: it shows next to multiples of pi/2 alone.
+        const W result_size = result < 0 ? -result : result;
+        if (size > 0x1p20) return result_size > 0x1p-20 && result_size < 0x1p20 ? 16 : 0x1p19;
+      } else if constexpr (digits_of<W> == 113) {
         if (size > 0x1p62) return -1;
       }
     }

@@ -13,9 +13,9 @@ using Binary128 = __float128;
 
 // Evaluates f at `count` points: args holds count * arity values.  |results[i] - f(args of i)| is at most
 // bounds[i] ulp of results[i] in W, wherever results[i] is a normal number of W; a negative bound says that
-// nothing is known.  Otherwise a NaN says that f is not defined there, and an infinity that it has a pole or
-// exceeds W.  `argument_bits`: the arguments have no more significant bits than that, which makes some
-// operations exact.
+// nothing is known.  Otherwise a NaN says that f is not defined there, an infinity that it has a pole or
+// exceeds W, a zero that f is zero or less than W's least normal number.  `argument_bits`: the arguments have
+// no more significant bits than that, which makes some operations exact.
 template <class W>
 using BoundedFunction = void (*)(const W* args, W* results, double* bounds, std::size_t count,
                                  int argument_bits);
@@ -29,8 +29,9 @@ using BoundedFunction = void (*)(const W* args, W* results, double* bounds, std:
 // stratified, binades, edges and hard; a bound is twice the largest error (x87_extended) or four times and
 // more (binary64, binary128), where a generous bound costs nothing.  The checked share of every run holds
 // them to it. Refused are arguments at which a function is accurate in an absolute sense only: lgamma of
-// negative numbers, and the Bessel functions altogether.  sin, cos and tan of double beyond 2^20 get a bound
-// of 2^19 ulp: next to multiples of pi/2 the argument reduction of glibc 2.36 is off by 1.4e5 ulp.
+// negative numbers in binary128, and the Bessel functions altogether.  sin, cos and tan of double beyond 2^20
+// get a bound of 2^19 ulp where the result is below 2^-20 (or the tangent above 2^20): next to multiples of
+// pi/2 the argument reduction of glibc 2.36 is off by 1.4e5 ulp, an absolute error that is nothing elsewhere.
 template <class W>
 [[nodiscard]] BoundedFunction<W> bounded_function(FunctionId id);
 

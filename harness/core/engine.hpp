@@ -75,8 +75,7 @@ class Engine final : public TypeEngine {
           results_(count * static_cast<std::size_t>(f.parts)),
           threw_(count) {
       const Arguments<Real> arguments(f, {Stratum::uniform, 1, count, nullptr});
-      for (std::size_t i = 0; i < count; ++i)
-        arguments.make(i, &args_[i * static_cast<std::size_t>(f.arity)]);
+      arguments.make_all(0, count, args_.data());
     }
     void run(std::size_t count) override { function_(args_.data(), results_.data(), threw_.data(), count); }
 
@@ -106,7 +105,7 @@ class Engine final : public TypeEngine {
     std::size_t n = 0;
     for (std::uint64_t k = first; k < last; k += n, most = std::min(2 * most, batch_size)) {
       n = std::min<std::uint64_t>(most, last - k);
-      for (std::size_t i = 0; i < n; ++i) arguments.make(k + i, &args[i * arity]);
+      arguments.make_all(k, n, args.data());
       std::fill(threw.begin(), threw.end(), std::uint8_t{0});
       function(f)(args.data(), results.data(), threw.data(), n);
       judging.judge(

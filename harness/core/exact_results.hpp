@@ -32,14 +32,11 @@ template <NativeReal Real>
 
 }  // namespace detail
 
-// Of `got`, a normal number next to f(a): is it f(a)?  Elementary functions of algebraic numbers are
-// transcendental but for the arguments excluded here (Lindemann and Weierstrass; Gelfond and Schneider for
-// 2^x and for logarithms to base 2 and 10; Niven, "Irrational Numbers", chapters 9 and 10).
-template <NativeReal Real>
-[[nodiscard]] Exactness exactness_of(FunctionId id, const Real* a, Real got) {
-  using detail::rounded_if;
-  const Real x = a[0];
-  if (!std::isfinite(x)) return Exactness::unknown;
+// The function's value at every algebraic number is transcendental, but at 1, or else at 0.
+[[nodiscard]] constexpr bool has_value_at_one(FunctionId id) {
+  return id == FunctionId::acos || id == FunctionId::acosh || id == FunctionId::log;
+}
+[[nodiscard]] constexpr bool is_transcendental(FunctionId id) {
   switch (id) {
     case FunctionId::sin:
     case FunctionId::cos:
@@ -54,11 +51,22 @@ template <NativeReal Real>
     case FunctionId::exp:
     case FunctionId::expm1:
     case FunctionId::log1p:
-      return rounded_if(x != 0);
-    case FunctionId::acos:
-    case FunctionId::acosh:
-    case FunctionId::log:
-      return rounded_if(x != 1);
+      return true;
+    default:
+      return has_value_at_one(id);
+  }
+}
+
+// Of `got`, a normal number next to f(a): is it f(a)?  Elementary functions of algebraic numbers are
+// transcendental but for the arguments excluded here (Lindemann and Weierstrass; Gelfond and Schneider for
+// 2^x and for logarithms to base 2 and 10; Niven, "Irrational Numbers", chapters 9 and 10).
+template <NativeReal Real>
+[[nodiscard]] Exactness exactness_of(FunctionId id, const Real* a, Real got) {
+  using detail::rounded_if;
+  const Real x = a[0];
+  if (!std::isfinite(x)) return Exactness::unknown;
+  if (is_transcendental(id)) return rounded_if(x != (has_value_at_one(id) ? Real(1) : Real(0)));
+  switch (id) {
     case FunctionId::exp2:
     case FunctionId::log10:
       // 10^n, n > 0, is an integer; negative powers are no binary numbers.
@@ -70,7 +78,7 @@ template <NativeReal Real>
     case FunctionId::erf:
       return rounded_if(std::fabs(got) == 1);  // it stays below
     case FunctionId::erfc:
-      return rounded_if(got == 2);
+      return rounded_if(got == 2 || (got == 1 && x != 0));  // it falls from 2 to 0
     case FunctionId::add:
       return detail::exactness_of_sum<Real>(a[0], a[1], got);
     case FunctionId::sub:
@@ -87,6 +95,29 @@ template <NativeReal Real>
     default:
       return Exactness::unknown;
   }
+}
+
+// Where a univariate function surely takes no value of a binary format: what exactness_of says, as ranges
+// that a loop over many samples can test.  Arguments 0 are left out always.
+struct InexactResults {
+  double arguments_below = 0;  // at every |x| < this but 1
+  double result_a = -1;        // next to a result of this size
+  double result_b = -1;
+  bool never_zero = false;  // a zero at a finite argument is an underflow
+};
+
+[[nodiscard]] constexpr bool is_never_zero(FunctionId id) {
+  return id == FunctionId::exp || id == FunctionId::exp2 || id == FunctionId::erfc ||
+         id == FunctionId::tgamma;
+}
+
+[[nodiscard]] constexpr InexactResults inexact_results(FunctionId id) {
+  InexactResults r{.never_zero = is_never_zero(id)};
+  if (is_transcendental(id)) r.arguments_below = std::numeric_limits<double>::infinity();
+  if (id == FunctionId::exp2 || id == FunctionId::log10) r.arguments_below = 1;
+  if (id == FunctionId::erf || id == FunctionId::erfc) r.result_a = 1;
+  if (id == FunctionId::erfc) r.result_b = 2;
+  return r;
 }
 
 }  // namespace ulpgate

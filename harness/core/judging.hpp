@@ -95,8 +95,9 @@ class FullJudging {
     if (threw_) return exception_judgement;
     mpfr_srcptr got = point_.got(batch, i, part);
     Judgement j = point_.judge(got, point_.exact(part));
-    // A result equal to a rounded reference is wrong by less than the reference can say, but wrong.
-    if (point_.exactness(part) == Exactness::rounded && mpfr_regular_p(got) &&
+    // A result equal to a rounded reference is wrong by less than the reference can say, but wrong.  So is a
+    // zero where the exact value has left even MPFR's range.
+    if (point_.exactness(part) == Exactness::rounded && mpfr_number_p(got) != 0 &&
         mpfr_equal_p(got, point_.exact(part)) != 0) {
       j.error.value = smallest_error;
     }

@@ -9,6 +9,7 @@
 #include "harness/core/exact_results.hpp"
 #include "harness/core/finding.hpp"
 #include "harness/core/native_bits.hpp"
+#include "harness/core/ordinary_scan.hpp"
 #include "harness/core/type_engine.hpp"
 
 namespace ulpgate {
@@ -30,6 +31,14 @@ class NativeStage {
     function_(args_.data(), results_.data(), bounds_.data(), count, std::numeric_limits<Real>::digits);
   }
 
+  // The loaded points, of one argument each, for scan_ordinary.
+  [[nodiscard]] ScanInput scan_input(std::span<const float> args, std::span<const float> results,
+                                     std::uint64_t first_index, double largest_error) const
+      requires(std::same_as<Real, float>&& std::same_as<W, double>) {
+    return {args.data(), results.data(), results_.data(), bounds_.data(),
+            args.size(), first_index,    largest_error,   inexact_results(id_)};
+  }
+
   [[nodiscard]] long double value(std::size_t i) const { return static_cast<long double>(results_[i]); }
 
   // What is known of `got`, the result at point i of the loaded ones, whose arguments are `args`; false where
@@ -42,7 +51,12 @@ class NativeStage {
     const NumberBits bits = bits_of(value);
     const NumberBits got_bits = bits_of(got);
     const double bound = bounds_[i];
-    if (bound >= 0 && (got == 0 || !std::isfinite(got))) return find_special(bits, value, got, finding);
+    if (bound >= 0 && (got == 0 || !std::isfinite(got))) {
+      // A zero without error.
+      finding = finding_of({});
+      if (bound == 0 && got == 0 && value == 0 && std::signbit(got) == signbit_of(value)) return true;
+      return find_special(args, bits, value, got, finding);
+    }
     if (!(bound >= 0) || !bits.normal || !got_bits.normal || bits.exponent < least_exponent ||
         bits.exponent > greatest_exponent || std::abs(got_bits.exponent - bits.exponent) > 50 ||
         (got < 0) != (value < 0)) {
@@ -101,16 +115,19 @@ class NativeStage {
     return gap * power_of_two(std::numeric_limits<Real>::digits - 1 - bits.exponent) <= 2 * slack;
   }
 
+  [[nodiscard]] static bool signbit_of(W value) { return std::signbit(static_cast<double>(value)); }
+
   // Results of 0, infinity and NaN: the two agree, or the exact value lies far beyond what Real has.  Next to
   // the ends of the range, and where they differ, the stage has no say.
-  [[nodiscard]] static bool find_special(const NumberBits& bits, W value, Real got, Finding& finding) {
+  [[nodiscard]] bool find_special(const Real* args, const NumberBits& bits, W value, Real got,
+                                  Finding& finding) const {
     using L = std::numeric_limits<Real>;
     if (std::isnan(got) || value != value) {
       if (!std::isnan(got) || value == value) return false;
       finding = finding_of({});
       return true;
     }
-    if (std::signbit(got) != std::signbit(static_cast<double>(value))) return false;
+    if (std::signbit(got) != signbit_of(value)) return false;
     if (got != 0) {
       // A pole, or twice the greatest power of two and more: bounds are far below half of the value.  Where W
       // has the exponents of Real its infinity says too little.
@@ -120,9 +137,11 @@ class NativeStage {
       finding = finding_of({});
       return true;
     }
-    // |value| < 2^(exponent + 1), in units of the least subnormal.  A zero of W may be an exact one.
+    // |value| < 2^(exponent + 1), in units of the least subnormal.
     const int size = bits.exponent + 1 - (L::min_exponent - L::digits);
-    if (!bits.normal || size > -20) return false;
+    if (size > -20) return false;
+    // A zero of W may be an exact one.
+    if (!bits.normal && !(is_never_zero(id_) && std::isfinite(args[0]))) return false;
     const double greatest = power_of_two(std::max(size, -900) + 1);
     finding = {Outcome::finite, smallest_error, greatest, 0, true, true};
     return true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "harness/core/summary.hpp"
 
@@ -47,6 +48,15 @@ class OrdinaryErrors {
     rounded_up_[n] += up ? 1U : 0U;
     first_ = std::min(first_, k);
     return true;
+  }
+
+  // Counts verdicts of slots, of the samples from index `first` on.
+  void count_scanned(std::span<const std::uint64_t, 2 * 9> verdicts, std::uint64_t first) {
+    for (std::size_t n = 0; n < upper.size(); ++n) {
+      counts_[n] += verdicts[2 * n] + verdicts[2 * n + 1];
+      rounded_up_[n] += verdicts[2 * n + 1];
+    }
+    first_ = std::min(first_, first);
   }
 
   void add_to(Summary& s) const {

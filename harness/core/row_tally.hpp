@@ -32,6 +32,12 @@ class RowTally {
   // Whether other units of the row have found maxima, which spare this one most of its search for them.
   [[nodiscard]] bool knows_maxima() const { return hint_.max_error(0).index != no_index; }
 
+  // Of rows of one part.
+  [[nodiscard]] double largest_error() const { return parts_[0].largest_error(); }
+  void count_scanned(std::span<const std::uint8_t> verdicts, std::uint64_t first) {
+    parts_[0].count_scanned(verdicts, first);
+  }
+
   // Counts the sample if its findings, one a part, say enough; false if a better reference is needed.
   // values[part]: the exact value, to 2^-20 at least.
   bool settle(std::span<const Finding> findings, std::uint64_t k, const Real* args,

@@ -134,6 +134,18 @@ class Arguments {
   Arguments(const FunctionInfo& f, const StratumSource& source)
       : function_(f), source_(source), stream_(source.seed, f.name, name_of(source.stratum)) {}
 
+  // Writes the values of points k .. k + count - 1 to out, `arity` of them a point.
+  void make_all(std::uint64_t k, std::size_t count, Real* out) const {
+    if constexpr (std::same_as<Real, float>) {
+      if (source_.stratum == Stratum::exhaustive) {
+        for (std::size_t i = 0; i < count; ++i)
+          out[i] = std::bit_cast<float>(detail::exhaustive_pattern(k + i));
+        return;
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) make(k + i, out + i * static_cast<std::size_t>(function_.arity));
+  }
+
   // Writes the `arity` values of point k to out.
   void make(std::uint64_t k, Real* out) const {
     const auto arity = static_cast<std::size_t>(function_.arity);

@@ -2,6 +2,7 @@
 // next, at the end to the full reference, and a fixed share is always checked against it.
 #pragma once
 
+#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -53,9 +54,9 @@ class ScreenedJudging {
 
   // Throws ReferenceDisagreement.
   void judge(const Batch<Real>& batch, RowTally<Real>& tally) {
-    pending_.clear();
     checks_.clear();
-    for (std::size_t i = 0; i < batch.count(); ++i) pending_.push_back(i);
+    pending_.resize(batch.count());
+    std::iota(pending_.begin(), pending_.end(), std::size_t{0});
     std::apply([&](auto&... stages) { (judge_natively(stages, batch, tally), ...); }, natives_);
     // What the full reference finds spares the samples behind it from being a maximum.
     for (const std::size_t i : pending_) {
@@ -70,6 +71,8 @@ class ScreenedJudging {
   [[nodiscard]] const std::array<std::uint64_t, stage_count>& decided() const { return decided_; }
 
  private:
+  using ScanningStage = NativeStage<float, double, Stage::binary64>;
+
   // What a stage would have decided of a sample that goes to the full reference in any case.
   struct Check {
     std::size_t i;
@@ -112,8 +115,12 @@ class ScreenedJudging {
   void judge_natively(Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
     if (!native.exists() || pending_.empty()) return;
     const auto arity = static_cast<std::size_t>(batch.function.arity);
-    if (pending_.size() == batch.count()) {
+    const bool whole = pending_.size() == batch.count();
+    if (whole) {
       native.load(batch.args, batch.count());
+      if constexpr (std::same_as<Native, ScanningStage>) {
+        if (batch.function.arity == 1) settle_ordinary(native, batch, tally);
+      }
     } else {
       gathered_.clear();
       for (const std::size_t i : pending_)
@@ -121,8 +128,9 @@ class ScreenedJudging {
       native.load(gathered_, pending_.size());
     }
     std::size_t left = 0;
-    for (std::size_t n = 0; n < pending_.size(); ++n) {
-      const std::size_t i = pending_[n];
+    for (std::size_t p = 0; p < pending_.size(); ++p) {
+      const std::size_t i = pending_[p];
+      const std::size_t n = whole ? i : p;
       Finding finding;
       if (batch.threw[i] == 0 && native.find(n, batch.args_of(i), batch.result_of(i, 0), finding)) {
         const long double value = native.value(n);
@@ -136,6 +144,25 @@ class ScreenedJudging {
       pending_[left++] = i;
     }
     pending_.resize(left);
+  }
+
+  // The ordinary ones of a whole batch of points of one argument, many at a time.
+  void settle_ordinary(const ScanningStage& native, const Batch<float>& batch, RowTally<float>& tally) {
+    verdicts_.resize(batch.count());
+    scan_ordinary(native.scan_input(batch.args, batch.results, batch.first_index, tally.largest_error()),
+                  verdicts_.data());
+    const std::uint64_t past_check = batch.first_index % check_stride;
+    for (std::size_t i = past_check == 0 ? 0 : check_stride - past_check; i < batch.count();
+         i += check_stride)
+      verdicts_[i] = verdict::unsettled;
+    tally.count_scanned(verdicts_, batch.first_index);
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < batch.count(); ++i) {
+      pending_[left] = i;
+      left += verdicts_[i] == verdict::unsettled ? 1U : 0U;
+    }
+    pending_.resize(left);
+    decided_[static_cast<std::size_t>(Stage::binary64)] += batch.count() - left;
   }
 
   // True where the sample is done with.
@@ -218,6 +245,7 @@ class ScreenedJudging {
   MpfrValue upper_;
   std::vector<std::size_t> pending_;
   std::vector<Real> gathered_;
+  std::vector<std::uint8_t> verdicts_;  // of the batch's samples, by a scan
   std::vector<Check> checks_;
   std::array<std::uint64_t, stage_count> decided_{};
 };

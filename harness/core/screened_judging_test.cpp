@@ -5,17 +5,11 @@
 
 #include <cmath>
 
+#include "harness/core/recorded_figures.hpp"
 #include "harness/core/type_engine.hpp"
 
 namespace ulpgate {
 namespace {
-
-// Everything that a record takes from a summary.
-auto recorded_figures(const Summary& s) {
-  return std::tuple(s.samples, s.correctly_rounded, s.outcomes, s.first_index, s.max_error.value,
-                    s.max_error.index, s.max_distance, s.max_error_over_condition, s.histogram.exact,
-                    s.histogram.counts, s.sum.to_text());
-}
 
 TEST(ScreenedJudging, GivesTheRecordsOfTheFullReference) {
   for (const auto& engine : all_engines()) {

@@ -53,7 +53,7 @@ inline constexpr std::array<StratumInfo, 7> all_strata = {{
   return s == Stratum::uniform || s == Stratum::stratified || s == Stratum::binades;
 }
 
-// Every bit pattern of float: point k of the exhaustive stratum is the float whose bits are k.
+// Every bit pattern of float, each once.
 inline constexpr std::uint64_t exhaustive_count = std::uint64_t{1} << 32U;
 
 }  // namespace ulpgate

@@ -34,6 +34,28 @@ void Tally::count(const Finding& f, std::uint64_t k) {
   b.rounded_up += up ? 1U : 0U;
 }
 
+void Tally::count_scanned(std::span<const std::uint8_t> verdicts, std::uint64_t first) {
+  std::array<std::uint64_t, 256> counts{};
+  for (const std::uint8_t v : verdicts) ++counts[v];
+  const auto first_where = [&](auto&& wanted) {
+    return first + static_cast<std::uint64_t>(std::ranges::find_if(verdicts, wanted) - verdicts.begin());
+  };
+  const std::uint64_t agreed = counts[verdict::agreed];
+  const std::uint64_t settled = verdicts.size() - counts[verdict::unsettled];
+  if (agreed > 0) {
+    const std::uint64_t k = first_where([](std::uint8_t v) { return v == verdict::agreed; });
+    count({}, k);
+    summary_.samples += agreed - 1;
+    summary_.outcomes[static_cast<std::size_t>(Outcome::finite)] += agreed - 1;
+    summary_.correctly_rounded += agreed - 1;
+    summary_.histogram.exact += agreed - 1;
+  }
+  if (settled > agreed) {
+    ordinary_.count_scanned(std::span(counts).first<verdict::agreed>(),
+                            first_where([](std::uint8_t v) { return v < verdict::agreed; }));
+  }
+}
+
 Summary Tally::take() {
   for (int i = flat_least; i <= flat_greatest; ++i) {
     const Bucket& b = flat_[static_cast<std::size_t>(i - flat_least)];

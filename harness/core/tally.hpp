@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "harness/core/finding.hpp"
 #include "harness/core/ordinary_errors.hpp"
+#include "harness/core/ordinary_scan.hpp"
 #include "harness/core/summary.hpp"
 
 namespace ulpgate {
@@ -28,9 +30,12 @@ class Tally {
   [[nodiscard]] bool count_ordinary(const Finding& f, std::uint64_t k) {
     if (!(f.least > 0) || f.greatest > 0.5 || f.outcome != Outcome::finite || !f.correctly_rounded)
       return false;
-    if (reaches(f.greatest, std::max(seen_.value, summary_.max_error.value))) return false;
+    if (reaches(f.greatest, largest_error())) return false;
     return ordinary_.count(f.least, f.greatest, k);
   }
+
+  // Counts what scan_ordinary settled of the samples from index `first` on.
+  void count_scanned(std::span<const std::uint8_t> verdicts, std::uint64_t first);
 
   // condition_bound() is a lower bound of the condition number at the sample, called only where it matters;
   // `ratio_seen` is the largest error over condition so far.
@@ -56,6 +61,8 @@ class Tally {
   void raise_error_over_condition(double ratio) {
     summary_.max_error_over_condition = std::max(summary_.max_error_over_condition, ratio);
   }
+  // An error that could be as large as this is no ordinary one.
+  [[nodiscard]] double largest_error() const { return std::max(seen_.value, summary_.max_error.value); }
   [[nodiscard]] Maximum max_error() const { return summary_.max_error; }
   [[nodiscard]] OracleComparison& oracle() { return summary_.oracle; }
   // The summary of everything counted; ends the tally.
