@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "harness/core/search_bands.hpp"
+#include "harness/core/search_batch.hpp"
 #include "harness/core/search_elites.hpp"
 #include "harness/core/search_scales.hpp"
 #include "harness/core/search_target.hpp"
@@ -25,6 +27,8 @@ struct SearchSize {
 //    the largest errors go on until they hold a few neighbouring numbers; then the beam starts again, in turn
 //    from the whole domain, from ordinary magnitudes and from around a number found;
 //  * neighbourhoods: points at random distances from the best, on scales that a reward for success chooses;
+//  * bands: a beam over boxes by the size of their errors on the whole;
+//  * windows: small ones in the best bands and near the best points, searched by differences of their best;
 //  * climbs: from the best points of this round, through their low bits, for as long as they get higher;
 //  * random points of the whole domain.
 template <class Position>
@@ -53,7 +57,7 @@ class Search {
         seeds_(std::move(seeds)),
         seed_(seed),
         size_(size),
-        scales_(least_scale, greatest_scale()) {
+        scales_(least_scale, greatest_scale(domain_, arity_)) {
     // The same evaluations on many boxes with few points each, or on few with many.
     for (const std::size_t samples : {256U, 64U, 16U, 64U}) {
       // Points of a box lie far apart and cost most: large rounds, of cheap points, give them less.
@@ -71,6 +75,8 @@ class Search {
       add_beam_batches();
       add_climb_batches();
       add_neighbourhood_batches();
+      add_band_batches();
+      add_window_batches();
       add_random_batches();
     }
     std::uint64_t planned = 0;
@@ -87,31 +93,14 @@ class Search {
   }
 
   // Evaluates a batch of the round; any thread.
-  void run_batch(std::size_t index) {
-    Batch& b = batches_[index];
-    SearchRandom random(b.key);
-    thread_local std::vector<SearchPoint<Position>> points;
-    thread_local std::vector<double> errors;
-    points.clear();
-    for (std::size_t i = 0; i < b.count; ++i) points.push_back(draw(b, i, random));
-    errors.assign(points.size(), 0);
-    target_.rank(points, errors);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (std::isinf(errors[i])) {
-        if (b.suspects.size() < 2) b.suspects.push_back(points[i]);
-      } else if (errors[i] > b.box.error) {
-        b.box.error = errors[i];
-        b.box.best = points[i];
-        b.improved = true;
-      }
-    }
-  }
+  void run_batch(std::size_t index) { batches_[index].run(target_, domain_, seeds_); }
 
   // Takes over what the batches found, confirms the best of it and moves the beams on.
   void end_round() {
     for (const auto& b : batches_) evaluations_ += b.count;
     confirm_best();
     confirm_suspects();
+    advance_bands();
     advance_climbers();
     advance_beams();
     scales_.forget();
@@ -122,21 +111,8 @@ class Search {
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
  private:
-  enum class Kind { seeds, box, neighbourhood, climb };
-  static constexpr std::size_t no_beam = ~std::size_t{0};
-  struct Batch {
-    Kind kind = Kind::box;
-    SearchBox<Position> box;  // drawn from, or holding the centre as its best point
-    std::size_t count = 0;
-    std::size_t first = 0;  // of the seeds
-    std::size_t beam = no_beam;
-    std::array<int, max_arity> scale{};  // of the distances, by argument; -1: this argument stays
-    std::array<int, max_arity> reach{};  // of the points from their own centre
-    std::uint64_t key = 0;
-    bool improved = false;
-    double parent = 0;  // error of the centre
-    std::vector<SearchPoint<Position>> suspects;
-  };
+  using Batch = SearchBatch<Position>;
+  using Kind = typename Batch::Kind;
   struct Beam {
     std::size_t keep;
     std::size_t samples;
@@ -150,35 +126,6 @@ class Search {
   static constexpr std::size_t suspects_a_round = 4;
 
   static std::uint64_t mixed(std::uint64_t key) { return SearchRandom(key).word(); }
-
-  [[nodiscard]] int greatest_scale() const {
-    int scale = 1;
-    for (std::size_t i = 0; i < arity_; ++i)
-      scale = std::max(scale, bit_length(Width<Position>(width_of(domain_.low[i], domain_.high[i]))) - 1);
-    return scale;
-  }
-
-  SearchPoint<Position> draw(const Batch& b, std::size_t i, SearchRandom& random) const {
-    if (b.kind == Kind::seeds) return seeds_[b.first + i];
-    if (b.kind == Kind::box) return b.box.draw(random, arity_);
-    SearchPoint<Position> x = b.box.best;
-    for (std::size_t a = 0; a < arity_; ++a) {
-      if (b.kind == Kind::climb) {
-        if (arity_ > 1 && (random.word() & 1U) != 0) continue;
-        x[a] = near(x[a], climb_scale(random, target_.significand_bits()), a, random);
-        continue;
-      }
-      if (b.scale[a] < 0) continue;
-      x[a] = near(x[a], b.reach[a], a, random);
-    }
-    return x;
-  }
-
-  // A position at most 2^scale away.
-  Position near(const Position& x, int scale, std::size_t a, SearchRandom& random) const {
-    const Width<Position> by = random.up_to(Width<Position>(Width<Position>(1) << scale));
-    return moved_within(x, by, (random.word() & 1U) != 0, domain_.low[a], domain_.high[a]);
-  }
 
   void add_seed_batches() {
     constexpr std::size_t batch = 256;
@@ -249,7 +196,7 @@ class Search {
 
   // Who got higher goes on; others rest, and the best of this round's other batches start in their places.
   void advance_climbers() {
-    const std::size_t places = size_.round * 3 / 8 / climb_batch;
+    const std::size_t places = size_.round / 8 / climb_batch;
     std::vector<std::size_t> fresh;
     for (std::size_t i = 0; i < batches_.size(); ++i) {
       const Batch& b = batches_[i];
@@ -272,7 +219,7 @@ class Search {
     if (elites_.empty()) return;
     const std::size_t batch = std::min<std::size_t>(256, std::max<std::size_t>(size_.round / 64, 16));
     SearchRandom random(mixed(seed_ + 0xe117e) + round_);
-    for (std::size_t done = 0; done + batch <= size_.round / 2; done += batch) {
+    for (std::size_t done = 0; done + batch <= size_.round / 4; done += batch) {
       const SearchElite<Position>& elite = elites_.chosen(random);
       Batch b;
       b.kind = Kind::neighbourhood;
@@ -286,8 +233,61 @@ class Search {
         b.reach[a] = b.scale[a];
         if (arity_ > 1 || b.scale[a] <= target_.cheap_scale()) continue;
         // Far away, but close together.
-        b.box.best[a] = near(b.box.best[a], b.scale[a], a, random);
+        b.box.best[a] = domain_.near(b.box.best[a], b.scale[a], a, random);
         b.reach[a] = std::max(target_.cheap_scale() - static_cast<int>(random.below(12)), 1);
+      }
+      batches_.push_back(std::move(b));
+    }
+  }
+
+  void add_band_batches() {
+    if (elites_.empty()) return;
+    if (bands_.idle()) {
+      SearchRandom random(mixed(seed_ + 0xba4d) + round_);
+      const int least_bits = std::max(target_.significand_bits() * 5 / 8, 1);
+      bands_.start(around(elites_.chosen(random), random), arity_, Width<Position>(1) << least_bits);
+    }
+    const std::size_t samples =
+        std::clamp<std::size_t>(size_.round / 128, 32, SearchBands<Position>::samples);
+    for (const auto& box : bands_.boxes()) {
+      Batch b;
+      b.kind = Kind::band;
+      b.box = box;
+      b.count = samples;
+      batches_.push_back(std::move(b));
+    }
+  }
+
+  void advance_bands() {
+    std::vector<double> scores;
+    for (const auto& b : batches_)
+      if (b.kind == Kind::band) scores.push_back(b.score);
+    // The last round of a search may have been cut short.
+    if (!scores.empty() && scores.size() == bands_.boxes().size()) bands_.advance(scores, arity_);
+  }
+
+  void add_window_batches() {
+    if (elites_.empty()) return;
+    const std::size_t batch = std::min<std::size_t>(16384, size_.round / 8);
+    SearchRandom random(mixed(seed_ + 0x817d0) + round_);
+    for (std::size_t done = 0; done + batch <= size_.round / 2; done += batch) {
+      Batch b;
+      b.kind = Kind::window;
+      b.count = batch;
+      const std::uint64_t turn = random.below(4);
+      if (turn > 1 && !bands_.empty()) {
+        b.box.best = bands_.chosen(random).draw(random, arity_);
+      } else {
+        const SearchElite<Position>& elite = elites_.chosen(random);
+        b.box.best = elite.at;
+        b.parent = elite.error;
+      }
+      for (std::size_t a = 0; a < arity_; ++a) {
+        b.scale[a] = turn == 1 ? scales_.chosen(random) : -1;
+        if (turn == 1) b.box.best[a] = domain_.near(b.box.best[a], b.scale[a], a, random);
+        // Over half of the significand's bits the errors are no longer periodic.
+        const auto bits = static_cast<std::uint64_t>(target_.significand_bits() / 2);
+        b.reach[a] = static_cast<int>(bits / 2 + random.below(bits / 2 + 4));
       }
       batches_.push_back(std::move(b));
     }
@@ -319,7 +319,7 @@ class Search {
       b.box.error = take(b.box.best);
       ++confirmations_;
       if (!(std::fabs(estimate - b.box.error) <= 0.02 + 0.02 * std::fabs(b.box.error))) ++lies_;
-      if (b.kind == Kind::neighbourhood && b.box.error > b.parent) {
+      if ((b.kind == Kind::neighbourhood || b.kind == Kind::window) && b.box.error > b.parent) {
         for (const int scale : b.scale) scales_.reward(scale);
       }
     }
@@ -357,7 +357,7 @@ class Search {
 
   void advance_beams() {
     for (auto& b : batches_)
-      if (b.beam != no_beam) beams_[b.beam].boxes.push_back(std::move(b.box));
+      if (b.beam != Batch::no_beam) beams_[b.beam].boxes.push_back(std::move(b.box));
     for (auto& beam : beams_) {
       if (beam.boxes.empty()) continue;
       std::ranges::stable_sort(beam.boxes, std::ranges::greater{}, &SearchBox<Position>::error);
@@ -376,6 +376,7 @@ class Search {
   std::size_t arity_;
   SearchBox<Position> domain_;
   SearchElites<Position> elites_;
+  SearchBands<Position> bands_;
   std::vector<SearchBox<Position>> ordinary_;
   std::vector<SearchPoint<Position>> seeds_;
   std::uint64_t seed_;

@@ -41,6 +41,15 @@ class SearchScales {
   std::vector<double> weights_;
 };
 
+// That of the widest argument.
+template <class Position>
+[[nodiscard]] int greatest_scale(const SearchBox<Position>& domain, std::size_t arity) {
+  int scale = 1;
+  for (std::size_t i = 0; i < arity; ++i)
+    scale = std::max(scale, bit_length(Width<Position>(width_of(domain.low[i], domain.high[i]))) - 1);
+  return scale;
+}
+
 // The scale of a step of a climb: small ones more often than large ones, up to half of the bits of a
 // significand.
 [[nodiscard]] inline int climb_scale(SearchRandom& random, int significand_bits) {

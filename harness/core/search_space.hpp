@@ -120,6 +120,11 @@ struct SearchBox {
       x[i] = moved(low[i], random.up_to(Width<Position>(width_of(low[i], high[i]))));
     return x;
   }
+  // A position of argument `slot` at most 2^scale from x.
+  [[nodiscard]] Position near(const Position& x, int scale, std::size_t slot, SearchRandom& random) const {
+    const Width<Position> by = random.up_to(Width<Position>(Width<Position>(1) << scale));
+    return moved_within(x, by, (random.word() & 1U) != 0, low[slot], high[slot]);
+  }
   // Cuts argument `slot` into `parts` of equal width; what is narrower than that stays whole.  The child that
   // holds the best point inherits it.
   void split(std::size_t slot, unsigned parts, std::size_t arity, std::vector<SearchBox>& out) const {
