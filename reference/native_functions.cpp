@@ -1,8 +1,11 @@
 // Native functions as cheap references.
 #include "reference/native_functions.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
+
+#include "reference/vector_functions.hpp"
 
 #ifdef ULPGATE_HAVE_FLOAT128
 #include <quadmath.h>
@@ -87,6 +90,9 @@ constexpr Bounds bounds_of(FunctionId id) {
   }
 }
 
+// In ulp, by libmvec's documentation.
+constexpr double vector_bound = 4;
+
 template <class W>
 constexpr double bound_of(FunctionId id) {
   const Bounds bounds = bounds_of(id);
@@ -152,6 +158,23 @@ double bound_of_sum(W sum, W a, W b) {
   return sum - a == b && sum - b == a ? 0 : 0.5;
 }
 
+// Of a function whose bound depends on where it is, for the result at x.
+template <FunctionId Id, class W>
+double bound_at(W x, W result) {
+  using enum FunctionId;
+  if constexpr (Id == sin || Id == cos || Id == tan) {
+    const W size = x < 0 ? -x : x;
+    if constexpr (std::is_same_v<W, double>) {
+      // The error of the argument reduction is absolute: it shows next to multiples of pi/2 alone.
+      const W result_size = result < 0 ? -result : result;
+      if (size > 0x1p20) return result_size > 0x1p-20 && result_size < 0x1p20 ? 16 : 0x1p19;
+    } else if constexpr (digits_of<W> == 113) {
+      if (size > 0x1p62) return -1;
+    }
+  }
+  return bound_of<W>(Id);
+}
+
 // One point; returns the bound of its error.
 template <FunctionId Id, class W>
 double evaluate(const W* a, W& result, int argument_bits) {
@@ -191,17 +214,7 @@ double evaluate(const W* a, W& result, int argument_bits) {
     return bound_of<W>(Id);
   } else {
     result = Library<Id>::call(a);
-    if constexpr (Id == sin || Id == cos || Id == tan) {
-      const W size = a[0] < 0 ? -a[0] : a[0];
-      if constexpr (std::is_same_v<W, double>) {
-        // The error of the argument reduction is absolute: it shows next to multiples of pi/2 alone.
-        const W result_size = result < 0 ? -result : result;
-        if (size > 0x1p20) return result_size > 0x1p-20 && result_size < 0x1p20 ? 16 : 0x1p19;
-      } else if constexpr (digits_of<W> == 113) {
-        if (size > 0x1p62) return -1;
-      }
-    }
-    return bound_of<W>(Id);
+    return bound_at<Id, W>(a[0], result);
   }
 }
 
@@ -212,6 +225,24 @@ void evaluate_batch(const W* args, W* results, double* bounds, std::size_t count
     bounds[i] = evaluate<Id, W>(args + i * arity, results[i], argument_bits);
 }
 
+// Several points at once.
+template <FunctionId Id>
+void evaluate_vectors(const double* args, double* results, double* bounds, std::size_t count, int) {
+  static const VectorFunction function = vector_function(Id);
+  function(args, results, count);
+  for (std::size_t i = 0; i < count; ++i)
+    bounds[i] = std::max(2 * vector_bound, bound_at<Id, double>(args[i], results[i]));
+}
+
+template <FunctionId Id, class W>
+BoundedFunction<W> best_function() {
+  if (bound_of<W>(Id) < 0) return nullptr;
+  if constexpr (std::is_same_v<W, double>) {
+    if (vector_function(Id) != nullptr) return &evaluate_vectors<Id>;
+  }
+  return &evaluate_batch<Id, W>;
+}
+
 }  // namespace
 
 template <class W>
@@ -219,7 +250,7 @@ BoundedFunction<W> bounded_function(FunctionId id) {
   switch (id) {
 #define ULPGATE_CASE(name) \
   case FunctionId::name:   \
-    return bound_of<W>(id) < 0 ? nullptr : &evaluate_batch<FunctionId::name, W>;
+    return best_function<FunctionId::name, W>();
 #define REAL1(name, d0, hard, oracle) ULPGATE_CASE(name)
 #define REAL2(name, d0, d1, hard, oracle) ULPGATE_CASE(name)
 #define REAL3(name, d0, d1, d2, hard, oracle) ULPGATE_CASE(name)

@@ -28,7 +28,10 @@ using BoundedFunction = void (*)(const W* args, W* results, double* bounds, std:
 // glibc 2.36 and libquadmath 12 were measured with this harness against MPFR, over strata uniform,
 // stratified, binades, edges and hard; a bound is twice the largest error (x87_extended) or four times and
 // more (binary64, binary128), where a generous bound costs nothing.  The checked share of every run holds
-// them to it. Refused are arguments at which a function is accurate in an absolute sense only: lgamma of
+// them to it.
+// binary64 functions of one argument are libmvec's where the machine has it (vector_functions.hpp), with at
+// least twice the 4 ulp that it documents.
+// Refused are arguments at which a function is accurate in an absolute sense only: lgamma of
 // negative numbers in binary128, and the Bessel functions altogether.  sin, cos and tan of double beyond 2^20
 // get a bound of 2^19 ulp where the result is below 2^-20 (or the tangent above 2^20): next to multiples of
 // pi/2 the argument reduction of glibc 2.36 is off by 1.4e5 ulp, an absolute error that is nothing elsewhere.

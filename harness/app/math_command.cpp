@@ -141,6 +141,7 @@ ExitCode run_math(const MathOptions& o, Ranks* ranks) {
   Json context =
       make_context(plan, {shard.text()}, ranks != nullptr ? static_cast<unsigned>(ranks->count()) : threads,
                    result.complete && shard.count == 1);
+  context["reference"] = o.reference;
   const bool timed = o.timing == "on" || (o.timing == "auto" && shard.count == 1);
   if (timed && result.complete) write_file(out / "timing.jsonl", timing_text(measure_times(plan.request())));
   write_context(out, context, result.complete);

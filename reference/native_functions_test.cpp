@@ -1,0 +1,85 @@
+// Tests of the bounds of native functions: binary64, many at once where the machine can, against x87 and
+// MPFR.
+#include "reference/native_functions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+
+#include "reference/oracle.hpp"
+#include "reference/vector_functions.hpp"
+
+namespace ulpgate {
+namespace {
+
+// Values of binary32: the arguments for which binary64 is a reference.
+std::vector<double> floats(std::size_t count) {
+  std::mt19937 words(11);
+  std::vector<double> list;
+  for (std::size_t i = 0; i < count; ++i)
+    list.push_back(static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(words()))));
+  for (const double x :
+       {0.0, -0.0, 1.0, -1.0, 0.5, 2.0, HUGE_VAL, -HUGE_VAL, std::nan(""), 0x1p-149, 0x1p127})
+    list.push_back(x);
+  for (int i = -500; i <= 500; ++i) list.push_back(i / 8.0);
+  return list;
+}
+
+// Whether `got` is within `bound` ulp of the exact value, or says of a special value what the header
+// promises.
+testing::AssertionResult holds(FunctionId id, double x, double got, double bound) {
+  if (bound < 0) return testing::AssertionSuccess();
+  std::vector<MpfrValue> args;
+  args.emplace_back(53);
+  mpfr_set_d(args[0], x, MPFR_RNDN);
+  std::vector<MpfrValue> exact;
+  exact.emplace_back(160);
+  exact_value(info_of(id), args, exact);
+  const long double value = mpfr_get_ld(exact[0], MPFR_RNDN);
+  const auto failure = [&] {
+    return testing::AssertionFailure() << info_of(id).name << "(" << std::hexfloat << x << ") = " << got
+                                       << ", exact " << static_cast<double>(value) << ", bound " << bound;
+  };
+  if (std::isnan(got) || std::isnan(value))
+    return std::isnan(got) && std::isnan(value) ? testing::AssertionSuccess() : failure();
+  if (std::isinf(got))
+    return (got > 0 ? value : -value) > 0x1p1023L ? testing::AssertionSuccess() : failure();
+  if (std::fabs(got) < 0x1p-1022)
+    return std::fabs(value) < 0x1.1p-1022L ? testing::AssertionSuccess() : failure();
+  const long double ulp = std::ldexp(1.0L, std::ilogb(got) - 52);
+  return std::fabs(got - value) <= bound * ulp ? testing::AssertionSuccess() : failure();
+}
+
+TEST(NativeFunctions, KeepTheirBoundsInBinary64) {
+  const std::vector<double> args = floats(2000);
+  std::vector<double> results(args.size());
+  std::vector<double> bounds(args.size());
+  for (const FunctionInfo& f : all_functions()) {
+    const auto function = bounded_function<double>(f.id);
+    if (f.arity != 1 || f.function_class != FunctionClass::real || function == nullptr) continue;
+    function(args.data(), results.data(), bounds.data(), args.size(), 24);
+    for (std::size_t i = 0; i < args.size(); ++i) EXPECT_TRUE(holds(f.id, args[i], results[i], bounds[i]));
+  }
+}
+
+TEST(VectorFunctions, AnswerForEveryCountAlike) {
+  const std::vector<double> args = floats(100);
+  for (const FunctionInfo& f : all_functions()) {
+    const VectorFunction function = vector_function(f.id);
+    if (function == nullptr) continue;
+    std::vector<double> all(args.size());
+    function(args.data(), all.data(), args.size());
+    for (std::size_t count = 1; count < 20; ++count) {
+      std::vector<double> some(count + 1, -7);
+      function(args.data(), some.data(), count);
+      EXPECT_EQ(some[count], -7) << "nothing is written behind the last";
+      for (std::size_t i = 0; i < count; ++i)
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(some[i]), std::bit_cast<std::uint64_t>(all[i])) << f.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ulpgate
