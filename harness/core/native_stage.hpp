@@ -44,9 +44,13 @@ class NativeStage {
   // What is known of `got`, the result at point i of the loaded ones, whose arguments are `args`; false where
   // the stage has no say: special results, results next to over- and underflow, refused arguments.
   [[nodiscard]] bool find(std::size_t i, const Real* args, Real got, Finding& finding) const {
-    constexpr int p = std::numeric_limits<Real>::digits;
-    constexpr int least_exponent = std::max(std::numeric_limits<Real>::min_exponent + 1, -900);
-    constexpr int greatest_exponent = std::min(std::numeric_limits<Real>::max_exponent - 3, 900);
+    using L = std::numeric_limits<Real>;
+    constexpr int p = L::digits;
+    // Below its least normal number float has one spacing; that of the wider types is too small for a double.
+    constexpr bool gradual = L::min_exponent > -800;
+    constexpr int least_grid = L::min_exponent - 1;
+    constexpr int least_exponent = gradual ? least_grid - 200 : -900;
+    constexpr int greatest_exponent = std::min(L::max_exponent - 3, 900);
     const W value = results_[i];
     const NumberBits bits = bits_of(value);
     const NumberBits got_bits = bits_of(got);
@@ -57,17 +61,20 @@ class NativeStage {
       if (bound == 0 && got == 0 && value == 0 && std::signbit(got) == signbit_of(value)) return true;
       return find_special(args, bits, value, got, finding);
     }
-    if (!(bound >= 0) || !bits.normal || !got_bits.normal || bits.exponent < least_exponent ||
+    if (!(bound >= 0) || !bits.normal || !(got_bits.normal || gradual) || bits.exponent < least_exponent ||
         bits.exponent > greatest_exponent || std::abs(got_bits.exponent - bits.exponent) > 50 ||
         (got < 0) != (value < 0)) {
       return false;
     }
+    const int grid = gradual ? std::max(bits.exponent, least_grid) : bits.exponent;
+    const int got_grid = gradual ? std::max(got_bits.exponent, least_grid) : got_bits.exponent;
     const W difference = static_cast<W>(got) - value;
     const auto rounded = static_cast<double>(difference);
     // Of two neighbouring numbers the difference is exact (Sterbenz), and it may be a double.
-    const bool exact = bound == 0 && static_cast<W>(rounded) == difference &&
-                       std::abs(got_bits.exponent - bits.exponent) <= 1;
-    const double error = std::fabs(rounded) * power_of_two(p - 1 - bits.exponent);
+    const bool neighbours =
+        got_bits.normal && bits.exponent >= least_grid && std::abs(got_bits.exponent - bits.exponent) <= 1;
+    const bool exact = bound == 0 && static_cast<W>(rounded) == difference && (neighbours || difference == 0);
+    const double error = std::fabs(rounded) * power_of_two(p - 1 - grid);
     const double slack = exact ? 0 : bound * unit + error * 0x1p-48;
     double least = error - slack;
     double greatest = error + slack;
@@ -99,7 +106,7 @@ class NativeStage {
     } else {
       return false;
     }
-    set_distance(finding, got_bits.exponent == bits.exponent && !next_to_power);
+    set_distance(finding, got_grid == grid && !next_to_power);
     return true;
   }
 
