@@ -111,9 +111,13 @@ class FullJudging {
 
   // Point i alone.
   void judge(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
+    load(batch, i);
+    settle(batch, i, tally);
+  }
+  // Counts point i, which is loaded.
+  void settle(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
     std::array<Finding, max_parts> findings;
     std::array<long double, max_parts> values{};
-    load(batch, i);
     for (std::size_t part = 0; part < static_cast<std::size_t>(batch.function.parts); ++part) {
       findings[part] = finding_of(judgement(batch, i, part));
       values[part] = value(part);

@@ -44,6 +44,9 @@ class ScreenedJudging {
   // The MPFR stage is within one ulp of its own precision of the exact value (oracle.hpp).
   static constexpr long stage_bits = std::numeric_limits<Real>::digits + 32;
   static constexpr std::uint64_t check_stride = 1024;
+  // Of the checked samples most go to the full reference at once, these through all stages, so that those which
+  // are rarely reached are held to their bounds as well.
+  static constexpr std::uint64_t deep_check_stride = 16 * check_stride;
 
   explicit ScreenedJudging(const FunctionInfo& f) : ScreenedJudging(f, screen_stages(f)) {}
   ScreenedJudging(const FunctionInfo& f, const ScreenStages& stages)
@@ -55,16 +58,15 @@ class ScreenedJudging {
   // Throws ReferenceDisagreement.
   void judge(const Batch<Real>& batch, RowTally<Real>& tally) {
     checks_.clear();
+    spared_.clear();
     pending_.resize(batch.count());
     std::iota(pending_.begin(), pending_.end(), std::size_t{0});
     std::apply([&](auto&... stages) { (judge_natively(stages, batch, tally), ...); }, natives_);
     // What the full reference finds spares the samples behind it from being a maximum.
     for (const std::size_t i : pending_) {
-      if (judge_by_mpfr(batch, i, tally)) continue;
-      full_.judge(batch, i, tally);
-      ++decided_[static_cast<std::size_t>(Stage::full)];
+      if (!judge_by_mpfr(batch, i, tally)) judge_in_full(batch, i, tally);
     }
-    for (const Check& c : checks_) verify(c, batch);
+    for (const std::size_t i : spared_) judge_in_full(batch, i, tally);
   }
 
   // Samples that each stage decided so far.
@@ -111,6 +113,10 @@ class ScreenedJudging {
     return (batch.first_index + i) % check_stride == 0;
   }
 
+  [[nodiscard]] bool is_checked_by_all(const Batch<Real>& batch, std::size_t i) const {
+    return (batch.first_index + i) % deep_check_stride == 0;
+  }
+
   template <class Native>
   void judge_natively(Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
     if (!native.exists() || pending_.empty()) return;
@@ -136,6 +142,10 @@ class ScreenedJudging {
         const long double value = native.value(n);
         if (is_checked(batch, i)) {
           checks_.push_back({i, Native::id, {finding, {}}});
+          if (!is_checked_by_all(batch, i)) {
+            spared_.push_back(i);
+            continue;
+          }
         } else if (tally.settle({&finding, 1}, batch.first_index + i, batch.args_of(i), {&value, 1})) {
           ++decided_[static_cast<std::size_t>(Native::id)];
           continue;
@@ -222,11 +232,16 @@ class ScreenedJudging {
     return true;
   }
 
-  void verify(const Check& check, const Batch<Real>& batch) {
-    full_.load(batch, check.i);
-    for (std::size_t part = 0; part < parts_; ++part) {
-      if (!check.findings[part].allows(full_.judgement(batch, check.i, part))) disagree(check, batch, part);
+  void judge_in_full(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
+    full_.load(batch, i);
+    for (const Check& check : checks_) {
+      if (check.i != i) continue;
+      for (std::size_t part = 0; part < parts_; ++part) {
+        if (!check.findings[part].allows(full_.judgement(batch, i, part))) disagree(check, batch, part);
+      }
     }
+    full_.settle(batch, i, tally);
+    ++decided_[static_cast<std::size_t>(Stage::full)];
   }
 
   [[noreturn]] static void disagree(const Check& check, const Batch<Real>& batch, std::size_t part) {
@@ -247,6 +262,7 @@ class ScreenedJudging {
   std::vector<Real> gathered_;
   std::vector<std::uint8_t> verdicts_;  // of the batch's samples, by a scan
   std::vector<Check> checks_;
+  std::vector<std::size_t> spared_;  // checked samples on their way past the other stages
   std::array<std::uint64_t, stage_count> decided_{};
 };
 

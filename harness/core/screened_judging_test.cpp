@@ -68,7 +68,7 @@ void expect_named(const ScreenStages& stages, std::string_view stage) {
   // Index 1 is not among the checked: there the lie passes, whatever it decides.
   EXPECT_NO_THROW(judge_exp<Real>(stages, 1)) << stage;
   try {
-    judge_exp<Real>(stages, ScreenedJudging<Real>::check_stride);
+    judge_exp<Real>(stages, ScreenedJudging<Real>::deep_check_stride);
     FAIL() << "the checked share must find the lie of " << stage;
   } catch (const ReferenceDisagreement& e) {
     EXPECT_NE(std::string(e.what()).find(stage), std::string::npos) << e.what();
