@@ -44,8 +44,8 @@ class ScreenedJudging {
   // The MPFR stage is within one ulp of its own precision of the exact value (oracle.hpp).
   static constexpr long stage_bits = std::numeric_limits<Real>::digits + 32;
   static constexpr std::uint64_t check_stride = 1024;
-  // Of the checked samples most go to the full reference at once, these through all stages, so that those which
-  // are rarely reached are held to their bounds as well.
+  // Of the checked samples most go to the full reference at once, these through all stages, so that those
+  // which are rarely reached are held to their bounds as well.
   static constexpr std::uint64_t deep_check_stride = 16 * check_stride;
 
   explicit ScreenedJudging(const FunctionInfo& f) : ScreenedJudging(f, screen_stages(f)) {}

@@ -64,11 +64,12 @@ void judge_exp(const ScreenStages& stages, std::uint64_t index) {
 }
 
 template <class Real>
-void expect_named(const ScreenStages& stages, std::string_view stage) {
+void expect_named(const ScreenStages& stages, std::string_view stage,
+                  std::uint64_t checked = ScreenedJudging<Real>::deep_check_stride) {
   // Index 1 is not among the checked: there the lie passes, whatever it decides.
   EXPECT_NO_THROW(judge_exp<Real>(stages, 1)) << stage;
   try {
-    judge_exp<Real>(stages, ScreenedJudging<Real>::deep_check_stride);
+    judge_exp<Real>(stages, checked);
     FAIL() << "the checked share must find the lie of " << stage;
   } catch (const ReferenceDisagreement& e) {
     EXPECT_NE(std::string(e.what()).find(stage), std::string::npos) << e.what();
@@ -85,10 +86,13 @@ TEST(ScreenedJudging, ALyingStageIsFoundAndTheArgumentNamed) {
   stages = screen_stages(exp);
   stages.binary64 = lying_exp<double>;
   expect_named<float>(stages, "binary64");
+  // Every checked sample holds the stage to its bound that would have decided it.
+  expect_named<float>(stages, "binary64", ScreenedJudging<float>::check_stride);
   if constexpr (NativeBits<long double>) {
     stages = screen_stages(exp);
     stages.x87_extended = lying_exp<long double>;
     expect_named<double>(stages, "x87_extended");
+    expect_named<double>(stages, "x87_extended", ScreenedJudging<double>::check_stride);
   }
 #ifdef ULPGATE_HAVE_FLOAT128
   stages = screen_stages(exp);
