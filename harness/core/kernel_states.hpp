@@ -51,7 +51,7 @@ class States {
       states_.stream_.fill(k_, draw_, words);
       if (is(StateStratum::stratified)) {
         const std::uint64_t n = states_.source_.count;
-        detail::into_cell(words, detail::permuted_cell(k_, draw_, n), n);
+        detail::into_cell(words, detail::permuted_cell(k_, detail::cell_stride(draw_, n), n), n);
       }
       ++draw_;
       return (detail::on_minus_100_100<Real>(words) + Real(100)) / Real(200);

@@ -2,8 +2,10 @@
 // words.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "harness/core/argument_lists.hpp"
@@ -23,6 +25,19 @@ struct StratumSource {
 
 namespace detail {
 
+// The Real nearest to v, |v| < 2^71: for double and wider types both parts are exact, and so is their sum
+// before its one rounding.
+template <NativeReal Real>
+[[nodiscard]] Real rounded_once(__int128 v) {
+  if constexpr (std::same_as<Real, float>) {
+    return static_cast<Real>(v);
+  } else {
+    const auto high = static_cast<std::int64_t>(v >> 32U);
+    const auto low = static_cast<std::uint32_t>(v);
+    return static_cast<Real>(high) * Real(0x1p32) + static_cast<Real>(low);
+  }
+}
+
 // The Real nearest to 200 f - 100, f = 0.words in base 2^64.  The integer 200 F - 100 * 2^(64 n) is exact and
 // rounded once, so the value depends on the words alone, not on a library's distribution.
 template <RealType Real>
@@ -30,7 +45,7 @@ Real on_minus_100_100(std::span<const std::uint64_t> words) {
   if constexpr (NativeReal<Real>) {
     const __int128 v =
         static_cast<__int128>(200) * static_cast<__int128>(words[0]) - (static_cast<__int128>(100) << 64U);
-    return static_cast<Real>(v) * Real(0x1p-64);  // exact
+    return rounded_once<Real>(v) * Real(0x1p-64);  // exact
   } else {
     mpz_t z;
     mpz_t offset;
@@ -53,24 +68,24 @@ inline constexpr std::size_t words_per_value =
 // Replaces the random fraction f by (cell + f) / cells, long division in base 2^64.
 inline void into_cell(std::span<std::uint64_t> words, std::uint64_t cell, std::uint64_t cells) {
   unsigned __int128 remainder = cell;
-  for (auto& word : words) {
-    const unsigned __int128 dividend = (remainder << 64U) | word;
-    word = static_cast<std::uint64_t>(dividend / cells);
-    remainder = dividend % cells;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const unsigned __int128 dividend = (remainder << 64U) | words[i];
+    const unsigned __int128 quotient = dividend / cells;
+    words[i] = static_cast<std::uint64_t>(quotient);
+    if (i + 1 < words.size()) remainder = dividend - quotient * cells;
   }
 }
 
 // A fixed permutation of [0, n) for every argument: argument 0 walks the cells in order, the others by a
 // stride near the golden section, so that pairs of cells fill the square evenly.
-inline std::uint64_t permuted_cell(std::uint64_t k, std::size_t argument, std::uint64_t n) {
-  if (argument == 0 || n < 3) return k;
+inline std::uint64_t cell_stride(std::size_t argument, std::uint64_t n) {
+  if (argument == 0 || n < 3) return 1;
   auto stride = static_cast<std::uint64_t>(0.6180339887498949 * static_cast<double>(n)) + 2 * argument;
-  const auto gcd = [](std::uint64_t a, std::uint64_t b) {
-    while (b != 0) std::swap(a %= b, b);
-    return a;
-  };
-  while (gcd(stride, n) != 1) ++stride;
-  return static_cast<std::uint64_t>(static_cast<unsigned __int128>(k) * stride % n);
+  while (std::gcd(stride, n) != 1) ++stride;
+  return stride;
+}
+inline std::uint64_t permuted_cell(std::uint64_t k, std::uint64_t stride, std::uint64_t n) {
+  return stride == 1 ? k : static_cast<std::uint64_t>(static_cast<unsigned __int128>(k) * stride % n);
 }
 
 template <RealType Real>
@@ -132,7 +147,9 @@ template <RealType Real>
 class Arguments {
  public:
   Arguments(const FunctionInfo& f, const StratumSource& source)
-      : function_(f), source_(source), stream_(source.seed, f.name, name_of(source.stratum)) {}
+      : function_(f), source_(source), stream_(source.seed, f.name, name_of(source.stratum)) {
+    for (std::size_t i = 0; i < strides_.size(); ++i) strides_[i] = detail::cell_stride(i, source.count);
+  }
 
   // Writes the values of points k .. k + count - 1 to out, `arity` of them a point.
   void make_all(std::uint64_t k, std::size_t count, Real* out) const {
@@ -174,7 +191,7 @@ class Arguments {
     std::uint64_t words[detail::words_per_value<Real>];
     stream_.fill(k, argument, words);
     if (source_.stratum == Stratum::stratified) {
-      detail::into_cell(words, detail::permuted_cell(k, argument, source_.count), source_.count);
+      detail::into_cell(words, detail::permuted_cell(k, strides_[argument], source_.count), source_.count);
     }
     return detail::map_to_domain(map, detail::on_minus_100_100<Real>(words));
   }
@@ -247,6 +264,7 @@ class Arguments {
   FunctionInfo function_;
   StratumSource source_;
   RandomStream stream_;
+  std::array<std::uint64_t, max_arity> strides_{};  // of the cells, by argument
 };
 
 }  // namespace ulpgate
