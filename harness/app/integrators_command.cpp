@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "harness/app/commands.hpp"
 #include "harness/app/context.hpp"
@@ -128,6 +129,8 @@ ExitCode run_integrators(const IntegratorOptions& o) {
           measure_order(engine, info, problem, o, outcome);
         }
       }
+      // Minutes may pass until the next line.
+      std::fflush(stdout);
       progress.update(++done, all);
     }
   }

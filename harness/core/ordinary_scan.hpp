@@ -9,12 +9,11 @@
 
 namespace ulpgate {
 
-// What a scan says of one sample: how OrdinaryErrors counts it.
+// What a scan says of one sample: 2 * slot + 1 where OrdinaryErrors rounds the error up to the slot's upper
+// edge, 2 * slot where down to the lower one, or one of these.
 namespace verdict {
-// 2 * slot + 1 where the error is rounded up to the slot's upper edge, 2 * slot where down to the lower one.
-inline constexpr std::uint8_t agreed =
-    18;  // exact: NaN for NaN, infinity for infinity, and what a stage of no error says
-inline constexpr std::uint8_t count = 19;
+// Exact: NaN for NaN, infinity for infinity, and equal to a value that has no error.
+inline constexpr std::uint8_t agreed = 18;
 inline constexpr std::uint8_t unsettled = 255;
 }  // namespace verdict
 

@@ -18,6 +18,7 @@ TABLES = (
     (pendulum_tables.pendulum_correlations, ("md", "csv")),
     (pendulum_tables.pendulum_energy, ("tex", "md", "csv")),
     (order_tables.order_table, ("tex", "md", "csv")),
+    (order_tables.drift_table, ("tex", "md", "csv")),
     (order_tables.order_records, ("md", "csv")),
 )
 FIGURES = (
@@ -47,6 +48,7 @@ _PARTS = (
         ("pendulum_energy", "pendulum_max_error"),
     ),
     ("orders", "Integrators: order", (order_tables.order_table,), ("orders",)),
+    ("drift", "Integrators: energy", (order_tables.drift_table,), ()),
 )
 _MISSING = {
     "pendulum_t_s": "No line in correlation.jsonl: no duration is drawn.",
@@ -70,6 +72,7 @@ def printed(pendulum):
         pendulum_tables.pendulum_divergence(pendulum),
         pendulum_tables.pendulum_energy(pendulum),
         order_tables.order_table(pendulum),
+        order_tables.drift_table(pendulum),
     ]
     return [table for table in made if table.rows]
 
@@ -79,6 +82,7 @@ def headline(pendulum):
     counts = (
         (len(pendulum.correlations), "duration", "of the pendulum's correlation"),
         (len(pendulum.orders), "error", "of integrators"),
+        (len(pendulum.drifts), "energy error", "of integrators"),
     )
     texts = [f"{n:,} {noun}{'s' * (n != 1)} {what}" for n, noun, what in counts if n]
     return [("; ".join(texts) + "." if texts else "A pendulum.", False)]

@@ -48,6 +48,41 @@ def order_table(pendulum):
     return Table("order_table", caption, columns, tuple(rows))
 
 
+def drift_table(pendulum):
+    """Every line of drift.jsonl: whether an integrator keeps the energy, by problem, type and the table of integrators."""
+    tokens = pendulum.type_tokens
+    found = sorted(
+        pendulum.drifts, key=lambda r: (r["problem"], tokens.index(r["type"]))
+    )
+    rows = [
+        (
+            row["problem"],
+            row["integrator"],
+            row["type"],
+            row["dt"],
+            row["t_end"],
+            numbers.signed(row["max_energy_error"]),
+            numbers.signed(row["energy_slope"]),
+        )
+        for row in found
+    ]
+    columns = (
+        _PROBLEM,
+        _INTEGRATOR,
+        _TYPE,
+        Column("dt", "step", "real"),
+        Column("t_end", "end", "real"),
+        Column("max_energy_error", "largest energy error", "real"),
+        Column("energy_slope", "slope", "real"),
+    )
+    caption = (
+        "Largest error of the energy along a problem with a known one, and the slope of the logarithm of the error "
+        "against that of time: 0 where the error of a symplectic method stays within bounds, about 1/2 for unbiased "
+        "roundings (Brouwer's law), 1 for an error that grows steadily."
+    )
+    return Table("drift_table", caption, columns, tuple(rows))
+
+
 def order_records(pendulum):
     """Every line of orders.jsonl."""
     fields = ("problem", "integrator", "type", "order", "dt", "steps")

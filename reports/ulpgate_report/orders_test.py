@@ -90,3 +90,15 @@ def test_tables_of_orders():
     assert (measured, dt, error, floor) == (4, 2.0**-8, 2e-9, "yes")
     assert units == pytest.approx(2e-9 / 2.0**-53, rel=1e-2)
     assert len(order_tables.order_records(pendulum).rows) == 9
+
+
+def test_table_of_energies():
+    lines = sample_pendulum.drift_records()
+    lines[0]["max_energy_error"] = "inf"
+    run = pendulum_records.PendulumRun("", drifts=tuple(reversed(lines)))
+    found = order_tables.drift_table(pendulum_records.Pendulum((run,))).rows
+    assert len(found) == len(lines)
+    assert [row[2] for row in found] == sorted(row[2] for row in found), "by type"
+    assert [row[5] for row in found if row[1] == lines[0]["integrator"]][0] == math.inf
+    slopes = {row[2]: row[6] for row in found}
+    assert slopes == {"double": None, "mpfr62": 0}

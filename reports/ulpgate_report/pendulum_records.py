@@ -52,6 +52,7 @@ class PendulumRun:
     series: dict = field(default_factory=dict)
     snapshots: dict = field(default_factory=dict)
     orders: tuple = ()
+    drifts: tuple = ()
     bits: dict = field(default_factory=dict)
 
     def condition(self, scene, token):
@@ -100,6 +101,11 @@ class Pendulum:
         return [row for run in self.runs for row in run.orders]
 
     @property
+    def drifts(self):
+        """All lines of drift.jsonl."""
+        return [row for run in self.runs for row in run.drifts]
+
+    @property
     def bits(self):
         """Significand bits by type."""
         found = dict(_KNOWN_BITS)
@@ -117,7 +123,7 @@ class Pendulum:
     @property
     def type_tokens(self):
         """All types in display order."""
-        rows = (*self.records, *self.correlations, *self.orders)
+        rows = (*self.records, *self.correlations, *self.orders, *self.drifts)
         found = [row["type"] for row in rows]
         for run in self.runs:
             found += [token for _, token in (*run.series, *run.snapshots)]
@@ -161,7 +167,7 @@ def chains_in(directory):
 
 def are_in(directory):
     """Whether a directory holds anything of a pendulum's own."""
-    names = ("correlation.jsonl", "orders.jsonl")
+    names = ("correlation.jsonl", "orders.jsonl", "drift.jsonl")
     return any(reading.has_records(directory / name) for name in names)
 
 
@@ -201,6 +207,7 @@ def load(name, directory, context, chains, records):
             if key[0] in chains
         },
         orders=tuple(_lines(directory / "orders.jsonl", "orders", order_key)),
+        drifts=tuple(_lines(directory / "drift.jsonl", "drift", order_key)),
         bits={
             entry["token"]: entry["significand_bits"]
             for entry in context.get("types", ())

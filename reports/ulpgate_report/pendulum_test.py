@@ -126,6 +126,7 @@ def test_latex_compiles_and_fits(tmp_path):
         correlations(("1e-5", "1e-6", "1e-7", "1e-8")),
         [sample_pendulum.record("cpp_bin_float62", dt) for dt in ("1e-5", "(1e-5)/2")],
         orders=tuple(sample_pendulum.order_records(steps=6)),
+        drifts=tuple(sample_pendulum.drift_records()),
     )
     made = [make(run) for make, _ in kind_pendulum.TABLES]
     for table, (make, _) in zip(made, kind_pendulum.TABLES):

@@ -99,7 +99,9 @@ def _load_pendulum(name, directory, context, chains, scenes):
     if not (chains or pendulum_records.are_in(directory)):
         return None
     run = pendulum_records.load(name, directory, context, chains, records)
-    empty = not (run.records or run.correlations or run.orders or run.series)
+    empty = not (
+        run.records or run.correlations or run.orders or run.drifts or run.series
+    )
     return None if empty else pendulum_records.Pendulum((run,))
 
 
@@ -119,7 +121,7 @@ def load(directory, name="", chains=None):
     has_pendulum = pendulum_records.are_in(directory)
     if not (has_math or has_kernels or has_scenes or has_pendulum):
         raise NothingMeasured(
-            f"{directory}: no record in math.jsonl, kernels.jsonl, scenes.jsonl, correlation.jsonl or orders.jsonl"
+            f"{directory}: no record in math.jsonl, kernels.jsonl, scenes.jsonl, correlation.jsonl, orders.jsonl or drift.jsonl"
         )
     path = directory / "context.json"
     context = reading.parse(reading.read(path), path.name, "context")

@@ -187,6 +187,24 @@ def order_records(tokens=("double", "float128", "mpfr62"), problem="kepler", ste
     return found
 
 
+def drift_records(tokens=("double", "mpfr62"), problem="kepler"):
+    """Lines of drift.jsonl: the error of the step, and no drift."""
+    return [
+        {
+            "what": "drift",
+            "integrator": name,
+            "type": token,
+            "problem": problem,
+            "dt": 0.015625,
+            "t_end": 512,
+            "max_energy_error": max(0.015625**order, 2.0 ** (1 - BITS[token])),
+            "energy_slope": None if token == "double" else 0.0,
+        }
+        for token in tokens
+        for name, order in INTEGRATORS
+    ]
+
+
 def _context():
     fields = "token cpp_type total_bits decimal_places exponent_bits significand_bits"
     entries = [dict(zip(fields.split(), row)) for row in TYPES]
@@ -243,6 +261,14 @@ def write_orders(directory, **options):
     return directory
 
 
+def write_drift(directory, **options):
+    """The run of the integrators' energies."""
+    directory.mkdir(parents=True, exist_ok=True)
+    (directory / "context.json").write_text(json.dumps(_context()) + "\n", "utf-8")
+    _write_lines(directory / "drift.jsonl", drift_records(**options))
+    return directory
+
+
 def write_suite(directory, tokens=tuple(BITS), steps=("1e-5", "1e-6"), **options):
     """The whole suite, as scripts/pendulum writes it."""
     directory = Path(directory)
@@ -250,6 +276,7 @@ def write_suite(directory, tokens=tuple(BITS), steps=("1e-5", "1e-6"), **options
         write_run(directory / f"dt_{dt}", dt, tokens, **options)
     write_damped(directory / "damped", tokens, **options)
     write_orders(directory / "orders")
+    write_drift(directory / "drift_mpfr62", tokens=("mpfr62",))
     return directory
 
 

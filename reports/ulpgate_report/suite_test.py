@@ -32,7 +32,7 @@ def suite_directory(tmp_path):
 def test_good_suite_loads(suite_directory):
     run = suite.load(suite_directory)
     names = [one.name for one in run.pendulum.runs]
-    assert names == ["damped", "dt_1e-5", "dt_1e-6", "orders"]
+    assert names == ["damped", "drift_mpfr62", "dt_1e-5", "dt_1e-6", "orders"]
     assert run.pendulum.type_tokens == ["float", "double", "float128", "mpfr62"] + [
         "mpfr150"
     ], "those of the orders too"
@@ -179,6 +179,7 @@ def test_runs_that_differ_are_told_apart(suite_directory):
     context = suite.load(suite_directory).context
     assert context["cpu"] == {
         "damped": "another",
+        "drift_mpfr62": "synthetic",
         "dt_1e-5": "synthetic",
         "dt_1e-6": "synthetic",
         "orders": "synthetic",
@@ -214,9 +215,8 @@ def test_whole_report(suite_directory, tmp_path):
     found.feed(page)
     assert len(set(found.ids)) == len(found.ids)
     assert {value[1:] for _, value in found.fetched} <= set(found.ids)
-    assert {"pendulum_divergence", "pendulum_energy", "order_table"} <= set(
-        found.tables
-    )
+    shown = {"pendulum_divergence", "pendulum_energy", "order_table", "drift_table"}
+    assert shown <= set(found.tables)
     summary = json.loads((out / "summary.json").read_text("utf-8"))
     reading.validator("summary").validate(summary)
     assert len(summary["correlations"]) == 4 and len(summary["scenes"]) == 6
@@ -236,6 +236,7 @@ def test_whole_report(suite_directory, tmp_path):
         "orders_kepler",
         "order_table",
         "order_records",
+        "drift_table",
         "pendulum_divergence",
         "pendulum_correlations",
         "pendulum_energy",
