@@ -106,6 +106,33 @@ def test_the_other_ranks_finish_without_the_one_that_died(one, tmp_path):
     assert (tmp_path / "o/math.jsonl").read_bytes() == one
 
 
+def test_ranks_end_although_mpirun_knows_of_no_death(one, tmp_path):
+    # A stopped rank is silent, but no death that anybody is told of: finalising would wait for it.
+    out = tmp_path / "o"
+    note = 'echo $$ >"$0/pid.$OMPI_COMM_WORLD_RANK"; exec "$@"'
+    words = words_of(
+        3, out, mpirun=["--enable-recovery"], rank=["sh", "-c", note, str(tmp_path)]
+    )
+    job = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    kept = out / "units/log.txt"
+    while not (kept.exists() and " u " in kept.read_text()):
+        assert job.poll() is None, job.communicate()[0]
+        time.sleep(0.005)
+    pids = [int((tmp_path / f"pid.{rank}").read_text()) for rank in range(3)]
+    os.kill(pids[2], signal.SIGSTOP)
+    try:
+        until = time.monotonic() + WAIT_S
+        while (
+            pathlib.Path(f"/proc/{pids[0]}/exe").exists() and time.monotonic() < until
+        ):
+            time.sleep(0.1)
+        assert time.monotonic() < until, "rank 0 waits for the silent one"
+    finally:
+        os.kill(pids[2], signal.SIGKILL)
+        job.communicate(timeout=WAIT_S)
+    assert (out / "math.jsonl").read_bytes() == one
+
+
 def test_bad_usage_is_exit_2_with_one_message(tmp_path):
     table = [
         (["--strata", "unifrm"], "did you mean 'uniform'"),
