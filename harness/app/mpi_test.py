@@ -47,23 +47,28 @@ def run(ranks, out, *words):
     return done.returncode, done.stderr
 
 
-def start_and_kill(ranks, victim, directory, *mpirun):
-    """Kills a rank once units are kept; exit code and messages of mpirun."""
+def start(ranks, directory, *mpirun):
+    """A job that has kept units, and the processes of its ranks."""
     note = 'echo $$ >"$0/pid.$OMPI_COMM_WORLD_RANK"; exec "$@"'
     rank = ["sh", "-c", note, str(directory)]
-    out = directory / "o"
     job = subprocess.Popen(
-        words_of(ranks, out, mpirun=mpirun, rank=rank),
+        words_of(ranks, directory / "o", mpirun=mpirun, rank=rank),
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
     )
-    kept = out / "units/log.txt"
+    kept = directory / "o/units/log.txt"
     while not (kept.exists() and " u " in kept.read_text()):
         assert job.poll() is None, job.communicate()[0]
         time.sleep(0.005)
-    assert not (out / "math.jsonl").exists()
-    os.kill(int((directory / f"pid.{victim}").read_text()), signal.SIGKILL)
+    return job, [int((directory / f"pid.{k}").read_text()) for k in range(ranks)]
+
+
+def start_and_kill(ranks, victim, directory, *mpirun):
+    """Kills a rank once units are kept; exit code and messages of mpirun."""
+    job, pids = start(ranks, directory, *mpirun)
+    assert not (directory / "o/math.jsonl").exists()
+    os.kill(pids[victim], signal.SIGKILL)
     text, _ = job.communicate(timeout=WAIT_S)
     return job.returncode, text
 
@@ -108,17 +113,7 @@ def test_the_other_ranks_finish_without_the_one_that_died(one, tmp_path):
 
 def test_ranks_end_although_mpirun_knows_of_no_death(one, tmp_path):
     # A stopped rank is silent, but no death that anybody is told of: finalising would wait for it.
-    out = tmp_path / "o"
-    note = 'echo $$ >"$0/pid.$OMPI_COMM_WORLD_RANK"; exec "$@"'
-    words = words_of(
-        3, out, mpirun=["--enable-recovery"], rank=["sh", "-c", note, str(tmp_path)]
-    )
-    job = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    kept = out / "units/log.txt"
-    while not (kept.exists() and " u " in kept.read_text()):
-        assert job.poll() is None, job.communicate()[0]
-        time.sleep(0.005)
-    pids = [int((tmp_path / f"pid.{rank}").read_text()) for rank in range(3)]
+    job, pids = start(3, tmp_path, "--enable-recovery")
     os.kill(pids[2], signal.SIGSTOP)
     try:
         until = time.monotonic() + WAIT_S
@@ -130,7 +125,7 @@ def test_ranks_end_although_mpirun_knows_of_no_death(one, tmp_path):
     finally:
         os.kill(pids[2], signal.SIGKILL)
         job.communicate(timeout=WAIT_S)
-    assert (out / "math.jsonl").read_bytes() == one
+    assert (tmp_path / "o/math.jsonl").read_bytes() == one
 
 
 def test_bad_usage_is_exit_2_with_one_message(tmp_path):

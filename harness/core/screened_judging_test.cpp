@@ -86,7 +86,7 @@ TEST(ScreenedJudging, ALyingStageIsFoundAndTheArgumentNamed) {
   stages = screen_stages(exp);
   stages.binary64 = lying_exp<double>;
   expect_named<float>(stages, "binary64");
-  // Every checked sample holds the stage to its bound that would have decided it.
+  // Every checked sample holds the first stage that says anything of it to its bound.
   expect_named<float>(stages, "binary64", ScreenedJudging<float>::check_stride);
   if constexpr (NativeBits<long double>) {
     stages = screen_stages(exp);
