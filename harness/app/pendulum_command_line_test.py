@@ -229,6 +229,19 @@ def test_all_parts_record_the_same_energies(tmp_path):
     ).read_bytes()
 
 
+@pytest.mark.parametrize("dt,published", [("1e-5", 1.87e-10), ("1e-6", 1.27e-9)])
+def test_a_setup_made_in_float_has_the_published_energy_error(tmp_path, dt, published):
+    """A chaotic walk: the figures come back only where every constant has the published run's bits."""
+    code, _, err = run(
+        *["scene", "pendulum3", "--types", "float", "--dt", dt, "--until", "16"],
+        *["--variant", "constants=stepwise", "--variant", "material.rod.stiffness=100"],
+        *["--series", "--out", tmp_path],
+    )
+    assert code == 0, err
+    record = json.loads((tmp_path / "scenes.jsonl").read_text().splitlines()[0])
+    assert record["max_energy_error"] == pytest.approx(published, rel=0.03)
+
+
 def test_correlation_needs_a_chain(tmp_path):
     code, _, err = run("scene", "collision", "--correlate", "--out", tmp_path)
     assert code == 2 and "chain" in err or "record_every" in err

@@ -23,6 +23,7 @@ struct Elastic {
   Real young;  // Pa
   Real poisson;
   Real friction_angle;  // rad
+  Real stiffness{0};    // N/m, a body's own spring in linear contacts; 0: young * radius
 };
 
 // The stiffness of two springs E r in series, times two; 0 where either is 0.  This order of products is that
@@ -40,10 +41,16 @@ template <RealType Real>
                                                       const Elastic<Real>& m2, const Real& r2) {
   using std::tan;
   ContactPhysics<Real> p;
-  p.kn = series_stiffness(m1.young, r1, m2.young, r2);
+  const bool given1 = m1.stiffness != 0;
+  const bool given2 = m2.stiffness != 0;
+  const Real e1 = given1 ? m1.stiffness : m1.young;
+  const Real e2 = given2 ? m2.stiffness : m2.young;
+  const Real l1 = given1 ? Real(1) : r1;
+  const Real l2 = given2 ? Real(1) : r2;
+  p.kn = series_stiffness(e1, l1, e2, l2);
   // Either Poisson ratio 0 means a contact without shear.
   if (m1.poisson != 0 && m2.poisson != 0) {
-    p.ks = series_stiffness(Real(m1.young * m1.poisson), r1, Real(m2.young * m2.poisson), r2);
+    p.ks = series_stiffness(Real(e1 * m1.poisson), l1, Real(e2 * m2.poisson), l2);
   }
   p.tan_friction = tan(m2.friction_angle < m1.friction_angle ? m2.friction_angle : m1.friction_angle);
   return p;

@@ -127,6 +127,14 @@ TEST(Physics, PendulumRodHas100NewtonPerMetre) {
   const Elastic<double> rod{1e5, 0, 0};
   EXPECT_EQ(frictional_physics(rod, 0.1 / 100, rod, 0.1 / 100).kn, 100);
   EXPECT_EQ(frictional_physics(rod, 0.1 / 100, rod, 0.1 / 100).ks, 0);
+  // A stiffness stands in for young * radius: in float the product of four factors misses 100 by two ulp.
+  const Elastic<float> product{1e5F, 0, 0};
+  const Elastic<float> given{1e5F, 0, 0, 100};
+  const Elastic<float> sheared{1, 0.25F, 0, 100};
+  EXPECT_EQ(frictional_physics(product, 0.1F / 100, product, 0.1F / 100).kn, 0x1.900004p+6F);
+  EXPECT_EQ(frictional_physics(given, 0.1F / 100, given, 0.1F / 100).kn, 100);
+  EXPECT_EQ(frictional_physics(given, 0.1F / 100, product, 1e-3F).kn, 100);
+  EXPECT_EQ(frictional_physics(sheared, 3.F, sheared, 7.F).ks, 25);
 }
 
 TEST(Physics, HertzOfEqualBodies) {

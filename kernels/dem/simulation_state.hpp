@@ -79,6 +79,7 @@ void visit_state(Archive& a, SimulationState<Real>& s) {
     a.constant("elastic.young", m.elastic.young);
     a.constant("elastic.poisson", m.elastic.poisson);
     a.constant("elastic.friction_angle", m.elastic.friction_angle);
+    a.constant("elastic.stiffness", m.elastic.stiffness);
     a.constant("collision.time", m.collision.time);
     a.constant("collision.normal", m.collision.normal);
     a.constant("collision.tangential", m.collision.tangential);

@@ -67,17 +67,25 @@ using ConstantReal = std::conditional_t<std::same_as<Real, float>, double, Real>
 template <RealType Real>
 class RoundedEvaluator {
  public:
-  void define(const std::string& name, std::string_view text) { wide_.define(name, wide_(text)); }
-  [[nodiscard]] Real operator()(std::string_view text) const { return static_cast<Real>(wide_(text)); }
+  explicit RoundedEvaluator(ConstantsRule rule) : stepwise_(rule == ConstantsRule::stepwise) {}
+  void define(const std::string& name, std::string_view text) {
+    wide_.define(name, wide_(text));
+    own_.define(name, own_(text));
+  }
+  [[nodiscard]] Real operator()(std::string_view text) const {
+    return stepwise_ ? own_(text) : static_cast<Real>(wide_(text));
+  }
 
  private:
+  bool stepwise_;
   Evaluator<ConstantReal<Real>> wide_;
+  Evaluator<Real> own_;
 };
 
 template <RealType Real>
 class Assembler {
  public:
-  explicit Assembler(const Scene& scene) : scene_(scene) {
+  explicit Assembler(const Scene& scene) : scene_(scene), evaluate_(scene.constants_rule) {
     for (const auto& [name, text] : scene.constants) evaluate_.define(name, text);
   }
 
@@ -118,6 +126,7 @@ class Assembler {
     MaterialValues<Real> v;
     v.density = evaluate_(m.density);
     v.elastic = {evaluate_(m.young), evaluate_(m.poisson), radians(m.friction_angle)};
+    if (m.stiffness) v.elastic.stiffness = evaluate_(*m.stiffness);
     v.collision = {evaluate_(m.collision_time), evaluate_(m.restitution_normal),
                    evaluate_(m.restitution_tangential), radians(m.friction_angle)};
     v.breakable = m.cohesion.has_value();
@@ -130,7 +139,8 @@ class Assembler {
 
   Real sphere_mass(const Real& radius, int material) const {
     using Wide = ConstantReal<Real>;
-    const Wide density = out_.materials[static_cast<std::size_t>(material)].density;
+    const Real density = out_.materials[static_cast<std::size_t>(material)].density;
+    if (scene_.constants_rule == ConstantsRule::stepwise) return dem::sphere_mass<Real>(radius, density);
     return static_cast<Real>(dem::sphere_mass<Wide>(radius, density));
   }
 

@@ -23,11 +23,17 @@ enum class ContactsBetween { all, bonded };
 // full: every constant in the precision of the run; yade: 4/3 pi of the masses of spheres computed in double,
 // the contamination described in the scene `pendulum3`.
 enum class MassRule { full, yade };
+// How the constants of float are made (every other type makes its own): rounded_once: in double, then
+// rounded; stepwise: each operation in float, as a program does that computes its setup in the type of its
+// run.
+enum class ConstantsRule { rounded_once, stepwise };
 
 struct Material {
   std::string name;
-  Expression density = "1000";      // kg/m^3
-  Expression young = "1e7";         // Pa
+  Expression density = "1000";  // kg/m^3
+  Expression young = "1e7";     // Pa
+  // N/m of a body's own spring in linear contacts, in place of young * radius (critical steps keep young).
+  std::optional<Expression> stiffness;
   Expression poisson = "0";         //
   Expression friction_angle = "0";  // degrees
   // viscoelastic
@@ -111,6 +117,7 @@ struct Scene {
   ContactLaw law = ContactLaw::frictional;
   ContactsBetween between = ContactsBetween::all;
   MassRule mass_rule = MassRule::full;
+  ConstantsRule constants_rule = ConstantsRule::rounded_once;
 
   Expression dt;                    // s
   Expression until;                 // s

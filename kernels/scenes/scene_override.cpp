@@ -14,6 +14,7 @@ struct Target {
 Target material_target(Material& m, std::string_view key) {
   if (key == "density") return {&m.density, Range::positive};
   if (key == "young") return {&m.young, Range::positive};
+  if (key == "stiffness") return {&m.stiffness.emplace(), Range::positive};
   if (key == "poisson") return {&m.poisson, Range::below_one};
   if (key == "friction_angle") return {&m.friction_angle, Range::not_negative};
   if (key == "collision_time") return {&m.collision_time, Range::positive};
@@ -61,6 +62,12 @@ std::optional<SceneError> apply_override(Scene& scene, std::string_view key_valu
   if (key == "mass") {
     if (value != "full" && value != "yade") return error(key, "'" + value + "' is none of full, yade");
     scene.mass_rule = value == "yade" ? MassRule::yade : MassRule::full;
+    return std::nullopt;
+  }
+  if (key == "constants") {
+    if (value != "rounded_once" && value != "stepwise")
+      return error(key, "'" + value + "' is none of rounded_once, stepwise");
+    scene.constants_rule = value == "stepwise" ? ConstantsRule::stepwise : ConstantsRule::rounded_once;
     return std::nullopt;
   }
   Scene changed = scene;

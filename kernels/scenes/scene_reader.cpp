@@ -60,6 +60,7 @@ void read_material(Fields& f, Scene& scene) {
   f.required_string("name", m.name);
   f.number("density", m.density, Range::positive);
   f.number("young", m.young, Range::positive);
+  f.number("stiffness", m.stiffness, Range::positive);
   f.number("poisson", m.poisson, Range::below_one);
   f.number("friction_angle", m.friction_angle, Range::not_negative);
   f.number("collision_time", m.collision_time, Range::positive);
@@ -206,6 +207,9 @@ void read_run(Document& document, Fields& root, Scene& scene) {
   f.triple("gravity", scene.gravity);
   f.number("damping", scene.damping, Range::below_one);
   f.choice<MassRule>("mass", scene.mass_rule, {{"full", MassRule::full}, {"yade", MassRule::yade}});
+  f.choice<ConstantsRule>(
+      "constants", scene.constants_rule,
+      {{"rounded_once", ConstantsRule::rounded_once}, {"stepwise", ConstantsRule::stepwise}});
   f.strings("record", scene.record);
   for (const std::string& r : scene.record) {
     if (std::find(recordable.begin(), recordable.end(), r) == recordable.end()) {

@@ -101,6 +101,10 @@ TEST(Override, ChangesOrSaysWhyNot) {
   EXPECT_FALSE(apply_override(scene, "material.m.friction_angle=30"));
   EXPECT_FALSE(apply_override(scene, "mass=yade"));
   EXPECT_EQ(scene.mass_rule, MassRule::yade);
+  EXPECT_FALSE(apply_override(scene, "constants=stepwise"));
+  EXPECT_EQ(scene.constants_rule, ConstantsRule::stepwise);
+  EXPECT_FALSE(apply_override(scene, "material.m.stiffness=100"));
+  EXPECT_EQ(scene.materials.front().stiffness, "100");
   struct Case {
     const char* text;
     const char* expected;
@@ -109,6 +113,8 @@ TEST(Override, ChangesOrSaysWhyNot) {
        {Case{"dt", "override: dt: must be key=value"}, Case{"dt=-1", "override: dt: must be positive, is -1"},
         Case{"x=1", "override: x: nothing of this name can be changed"},
         Case{"mass=3", "override: mass: '3' is none of full, yade"},
+        Case{"constants=float", "override: constants: 'float' is none of rounded_once, stepwise"},
+        Case{"material.m.stiffness=0", "override: material.m.stiffness: must be positive, is 0"},
         Case{"r=zz", "override: r: 'zz': unknown name 'zz' at character 1"}}) {
     const auto error = apply_override(scene, c.text);
     ASSERT_TRUE(error) << c.text;
