@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reference/oracle_complex.hpp"
+#include "reference/oracle_gamma.hpp"
 #include "reference/oracle_special.hpp"
 
 namespace ulpgate {
@@ -28,9 +29,12 @@ int exact_logb(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t rounding) {
   return 0;
 }
 
-int exact_lgamma(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t rounding) {
-  int sign = 0;
-  return mpfr_lgamma(out, &sign, x, rounding);
+int exact_gamma(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
+  return oracle::gamma(out, x);
+}
+
+int exact_log_gamma(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
+  return oracle::log_gamma(out, x);
 }
 
 struct ComplexOut {

@@ -10,6 +10,7 @@
 
 #include "reference/condition.hpp"
 #include "reference/exchange.hpp"
+#include "reference/oracle_gamma.hpp"
 
 namespace ulpgate {
 namespace {
@@ -82,6 +83,30 @@ TEST(Oracle, SpecialFunctionsAgreeWithBoostInCppBinFloat) {
     EXPECT_TRUE(near(wide(got[0]), row.re)) << info_of(row.id).name << " " << wide(got[0]) << " " << row.re;
     if (got.size() > 1) {
       EXPECT_TRUE(near(wide(got[1]), row.im)) << info_of(row.id).name << " im";
+    }
+  }
+}
+
+// Correctly rounded like MPFR's own, with the same word on what was rounded which way.
+TEST(Oracle, GammasNextToZeroAreThoseOfMpfr) {
+  const WideExponentRange range;
+  const auto sign = [](int n) { return (n > 0) - (n < 0); };
+  for (const long precision : {24L, 64L, 113L, 145L, 239L, 828L}) {
+    for (const long exponent : {-7L, -8L, -9L, -13L, -20L, -40L, -75L, -149L, -1074L, -20000L}) {
+      for (const char* digits : {"1", "-1", "1.9", "-1.37", "0x1.fffffep+0", "-0x1.55555555555555p+0"}) {
+        MpfrValue x(precision), got(precision), want(precision);
+        mpfr_set_str(x, digits, 0, MPFR_RNDN);
+        mpfr_mul_2si(x, x, exponent, MPFR_RNDN);
+        const std::string at =
+            std::string(digits) + " 2^" + std::to_string(exponent) + " in " + std::to_string(precision);
+        int rounded = oracle::gamma(got, x);
+        EXPECT_EQ(sign(rounded), sign(mpfr_gamma(want, x, MPFR_RNDN))) << at;
+        EXPECT_NE(mpfr_equal_p(got, want), 0) << "gamma " << at;
+        int ignored = 0;
+        rounded = oracle::log_gamma(got, x);
+        EXPECT_EQ(sign(rounded), sign(mpfr_lgamma(want, &ignored, x, MPFR_RNDN))) << at;
+        EXPECT_NE(mpfr_equal_p(got, want), 0) << "lgamma " << at;
+      }
     }
   }
 }
