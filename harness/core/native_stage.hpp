@@ -46,11 +46,9 @@ class NativeStage {
   [[nodiscard]] bool find(std::size_t i, const Real* args, Real got, Finding& finding) const {
     using L = std::numeric_limits<Real>;
     constexpr int p = L::digits;
-    // Below its least normal number float has one spacing; that of the wider types is too small for a double.
-    constexpr bool gradual = L::min_exponent > -800;
     constexpr int least_grid = L::min_exponent - 1;
     constexpr int least_exponent = gradual ? least_grid - 200 : -900;
-    constexpr int greatest_exponent = std::min(L::max_exponent - 3, 900);
+    constexpr int greatest_exponent = std::min(L::max_exponent - 1, 900);
     const W value = results_[i];
     const NumberBits bits = bits_of(value);
     const NumberBits got_bits = bits_of(got);
@@ -59,11 +57,11 @@ class NativeStage {
       // A zero without error.
       finding = finding_of({});
       if (bound == 0 && got == 0 && value == 0 && std::signbit(got) == signbit_of(value)) return true;
-      return find_special(args, bits, value, got, finding);
+      return find_special(args, bits, value, bound, got, finding);
     }
     if (!(bound >= 0) || !bits.normal || !(got_bits.normal || gradual) || bits.exponent < least_exponent ||
-        bits.exponent > greatest_exponent || std::abs(got_bits.exponent - bits.exponent) > 50 ||
-        (got < 0) != (value < 0)) {
+        bits.exponent > greatest_exponent || may_overflow(bits, value) ||
+        std::abs(got_bits.exponent - bits.exponent) > 50 || (got < 0) != (value < 0)) {
       return false;
     }
     const int grid = gradual ? std::max(bits.exponent, least_grid) : bits.exponent;
@@ -111,6 +109,21 @@ class NativeStage {
   }
 
  private:
+  // Below its least normal number float has one spacing; that of the wider types is too small for a double.
+  static constexpr bool gradual = std::numeric_limits<Real>::min_exponent > -800;
+  // Where the exponent of a value says that it overflows: bounds are below 2^20 ulp of W, which is little
+  // next to the half ulp of float that lies between its largest number and this power of two.
+  static constexpr int least_overflow =
+      std::numeric_limits<Real>::max_exponent + (std::same_as<Real, float> ? 0 : 1);
+
+  // Whether the value is so close to the end of the range, or beyond, that it may be rounded to infinity.
+  [[nodiscard]] static bool may_overflow(const NumberBits& bits, W value) {
+    using L = std::numeric_limits<Real>;
+    if (bits.exponent < L::max_exponent - 1) return false;
+    const W size = value < 0 ? -value : value;
+    return !(size < static_cast<W>(L::max()));
+  }
+
   // Whether there is a power of two within twice `slack`, in ULP of Real, of the value.
   [[nodiscard]] static bool may_cross_power(const NumberBits& bits, W value, double slack) {
     // 32 bits say whether to look closer: bounds are below 2^20 ulp of W, which has 52 bits behind the first.
@@ -126,7 +139,7 @@ class NativeStage {
 
   // Results of 0, infinity and NaN: the two agree, or the exact value lies far beyond what Real has.  Next to
   // the ends of the range, and where they differ, the stage has no say.
-  [[nodiscard]] bool find_special(const Real* args, const NumberBits& bits, W value, Real got,
+  [[nodiscard]] bool find_special(const Real* args, const NumberBits& bits, W value, double bound, Real got,
                                   Finding& finding) const {
     using L = std::numeric_limits<Real>;
     if (std::isnan(got) || value != value) {
@@ -136,17 +149,23 @@ class NativeStage {
     }
     if (std::signbit(got) != signbit_of(value)) return false;
     if (got != 0) {
-      // A pole, or twice the greatest power of two and more: bounds are far below half of the value.  Where W
-      // has the exponents of Real its infinity says too little.
+      // A pole, or beyond the range by more than the bound.  Where W has the exponents of Real its infinity
+      // says too little.
       const bool infinite = value - value != 0;
-      if (infinite ? std::same_as<Real, long double> : !bits.normal || bits.exponent <= L::max_exponent)
+      if (infinite ? std::same_as<Real, long double> : !bits.normal || bits.exponent < least_overflow)
         return false;
       finding = finding_of({});
       return true;
     }
     // |value| < 2^(exponent + 1), in units of the least subnormal.
     const int size = bits.exponent + 1 - (L::min_exponent - L::digits);
-    if (size > -20) return false;
+    if (size > (gradual ? 0 : -20)) return false;
+    if (gradual && size > -20) {
+      const double error = std::fabs(static_cast<double>(value)) * power_of_two(L::digits - L::min_exponent);
+      const double slack = error * (bound * power_of_two(1 - significand_bits<W>) + 0x1p-48);
+      finding = {Outcome::finite, error - slack, error + slack, 0, true, true};
+      return finding.greatest < 0.5;
+    }
     // A zero of W may be an exact one.
     if (!bits.normal && !(is_never_zero(id_) && std::isfinite(args[0]))) return false;
     const double greatest = power_of_two(std::max(size, -900) + 1);
