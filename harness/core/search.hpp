@@ -27,8 +27,9 @@ struct SearchSize {
 //    the largest errors go on until they hold a few neighbouring numbers; then the beam starts again, in turn
 //    from the whole domain, from ordinary magnitudes and from around a number found;
 //  * neighbourhoods: points at random distances from the best, on scales that a reward for success chooses;
-//  * bands: a beam over boxes by the size of their errors on the whole;
-//  * windows: small ones in the best bands and near the best points, searched by differences of their best;
+//  * bands: a beam over boxes by the size of their errors on the whole, and boxes beside the best of them;
+//  * a window: a small one in one of the best bands or near a good point, searched by differences of its
+//  best;
 //  * climbs: from the best points of this round, through their low bits, for as long as they get higher;
 //  * random points of the whole domain.
 template <class Position>
@@ -59,8 +60,8 @@ class Search {
         size_(size),
         scales_(least_scale, greatest_scale(domain_, arity_)) {
     // The same evaluations on many boxes with few points each, or on few with many.
+    // Points of a box lie far apart and cost most: large rounds, of cheap points, give them less.
     for (const std::size_t samples : {256U, 64U, 16U, 64U}) {
-      // Points of a box lie far apart and cost most: large rounds, of cheap points, give them less.
       const std::size_t share = std::max<std::size_t>(size_.round / (size_.round > 65536 ? 64 : 16), 4);
       const std::size_t n = std::min(samples, share / 4);
       beams_.push_back({std::max<std::size_t>(share / (4 * n), 1), n, {}, beams_.size()});
@@ -196,7 +197,7 @@ class Search {
 
   // Who got higher goes on; others rest, and the best of this round's other batches start in their places.
   void advance_climbers() {
-    const std::size_t places = size_.round / 8 / climb_batch;
+    const std::size_t places = size_.round / 4 / climb_batch;
     std::vector<std::size_t> fresh;
     for (std::size_t i = 0; i < batches_.size(); ++i) {
       const Batch& b = batches_[i];
@@ -244,8 +245,12 @@ class Search {
     if (elites_.empty()) return;
     if (bands_.idle()) {
       SearchRandom random(mixed(seed_ + 0xba4d) + round_);
-      const int least_bits = std::max(target_.significand_bits() * 5 / 8, 1);
-      bands_.start(around(elites_.chosen(random), random), arity_, Width<Position>(1) << least_bits);
+      if (bands_.empty() || random.below(8) == 0) {
+        const int least_bits = std::max(target_.significand_bits() * 9 / 16, 1);
+        bands_.start(around(elites_.chosen(random), random), arity_, Width<Position>(1) << least_bits);
+      } else {
+        bands_.start_beside(bands_.chosen(random), random, domain_, arity_);
+      }
     }
     const std::size_t samples =
         std::clamp<std::size_t>(size_.round / 128, 32, SearchBands<Position>::samples);
@@ -266,31 +271,29 @@ class Search {
     if (!scores.empty() && scores.size() == bands_.boxes().size()) bands_.advance(scores, arity_);
   }
 
+  // One a round: a long one finds more than several short ones.
   void add_window_batches() {
     if (elites_.empty()) return;
-    const std::size_t batch = std::min<std::size_t>(16384, size_.round / 8);
     SearchRandom random(mixed(seed_ + 0x817d0) + round_);
-    for (std::size_t done = 0; done + batch <= size_.round / 2; done += batch) {
-      Batch b;
-      b.kind = Kind::window;
-      b.count = batch;
-      const std::uint64_t turn = random.below(4);
-      if (turn > 1 && !bands_.empty()) {
-        b.box.best = bands_.chosen(random).draw(random, arity_);
-      } else {
-        const SearchElite<Position>& elite = elites_.chosen(random);
-        b.box.best = elite.at;
-        b.parent = elite.error;
-      }
-      for (std::size_t a = 0; a < arity_; ++a) {
-        b.scale[a] = turn == 1 ? scales_.chosen(random) : -1;
-        if (turn == 1) b.box.best[a] = domain_.near(b.box.best[a], b.scale[a], a, random);
-        // Over half of the significand's bits the errors are no longer periodic.
-        const auto bits = static_cast<std::uint64_t>(target_.significand_bits() / 2);
-        b.reach[a] = static_cast<int>(bits / 2 + random.below(bits / 2 + 4));
-      }
-      batches_.push_back(std::move(b));
+    Batch b;
+    b.kind = Kind::window;
+    b.count = size_.round / 4;
+    const std::uint64_t turn = random.below(4);
+    if (turn > 1 && !bands_.empty()) {
+      b.box.best = bands_.chosen(random).draw(random, arity_);
+    } else {
+      const SearchElite<Position>& elite = elites_.chosen(random);
+      b.box.best = elite.at;
+      b.parent = elite.error;
     }
+    for (std::size_t a = 0; a < arity_; ++a) {
+      b.scale[a] = turn == 1 ? scales_.chosen(random) : -1;
+      if (turn == 1) b.box.best[a] = domain_.near(b.box.best[a], b.scale[a], a, random);
+      // Over half of the significand's bits the errors are no longer periodic.
+      const auto bits = static_cast<std::uint64_t>(target_.significand_bits() / 2);
+      b.reach[a] = static_cast<int>(bits / 2 + random.below(bits / 2 + 4));
+    }
+    batches_.push_back(std::move(b));
   }
 
   void add_random_batches() {

@@ -36,8 +36,29 @@ class SearchBands {
   // A new beam; a box with `smallest` positions or less is not cut.
   void start(const Box& root, std::size_t arity, const Width<Position>& smallest) {
     smallest_ = smallest;
+    beside_ = false;
     boxes_.clear();
     root.split(root.widest(arity), cuts * kept_boxes, arity, boxes_);
+  }
+  // In place of a beam, boxes of a band's size at random distances from it: within a library's interval the
+  // amplitude still differs from place to place, where a part of x that some steps share is rounded well or
+  // badly.
+  void start_beside(const Box& band, SearchRandom& random, const Box& domain, std::size_t arity) {
+    constexpr std::uint64_t greatest_scale = 18;
+    boxes_.clear();
+    beside_ = true;
+    for (std::size_t i = 0; i < std::size_t{cuts} * kept_boxes; ++i) {
+      Box box = band;
+      for (std::size_t a = 0; a < arity; ++a) {
+        const Width<Position> width = width_of(band.low[a], band.high[a]);
+        const auto times = (std::uint64_t{1} << random.below(greatest_scale)) + random.below(greatest_scale);
+        const auto last = moved_within(domain.high[a], width, false, domain.low[a], domain.high[a]);
+        box.low[a] = moved_within(box.low[a], Width<Position>(width * Width<Position>(times)),
+                                  (random.word() & 1U) != 0, domain.low[a], last);
+        box.high[a] = moved_within(box.low[a], width, true, domain.low[a], domain.high[a]);
+      }
+      boxes_.push_back(std::move(box));
+    }
   }
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
 
@@ -46,6 +67,11 @@ class SearchBands {
     std::vector<std::size_t> order(boxes_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t i) { return scores[i]; });
+    if (beside_) {
+      for (const std::size_t i : order) add(boxes_[i], scores[i]);
+      boxes_.clear();
+      return;
+    }
     const Box& best = boxes_[order[0]];
     const std::size_t slot = best.widest(arity);
     if (width_of(best.low[slot], best.high[slot]) <= smallest_) {
@@ -68,7 +94,7 @@ class SearchBands {
  private:
   static constexpr std::size_t kept_boxes = 4;
   static constexpr unsigned cuts = 4;
-  static constexpr std::size_t kept_bands = 6;
+  static constexpr std::size_t kept_bands = 24;
 
   void add(Box band, double score) {
     band.error = score;
@@ -80,6 +106,7 @@ class SearchBands {
   std::vector<Box> boxes_;
   std::vector<Box> bands_;  // by falling score
   Width<Position> smallest_{};
+  bool beside_ = false;
 };
 
 }  // namespace ulpgate

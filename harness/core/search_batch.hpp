@@ -40,7 +40,8 @@ struct SearchBatch {
     SearchRandom random(key);
     thread_local std::vector<Point> points;
     thread_local std::vector<double> errors;
-    SearchPool<Position> pool;
+    // One in a few hundred: fewer have too few differences, more are no better than their window.
+    SearchPool<Position> pool(std::max<std::size_t>(count / 340, 48));
     const Point centre = box.best;
     const std::size_t arity = target.arity();
     for (std::size_t done = 0; done < count; done += points.size()) {

@@ -16,16 +16,18 @@ namespace ulpgate {
 template <class Position>
 class SearchPool {
  public:
+  explicit SearchPool(std::size_t capacity) : capacity_(capacity) {}
+
   [[nodiscard]] bool is_useful() const { return points_.size() >= 8; }
 
   void add(const SearchPoint<Position>& at, double error) {
-    if (points_.size() >= kept && error <= points_.back().error) return;
+    if (points_.size() >= capacity_ && error <= points_.back().error) return;
     const auto it =
         std::ranges::upper_bound(points_, error, std::ranges::greater{}, &SearchElite<Position>::error);
     for (auto same = it; same != points_.begin() && (--same)->error == error;)
       if (same->at == at) return;
     points_.insert(it, {at, error});
-    if (points_.size() > kept) points_.pop_back();
+    if (points_.size() > capacity_) points_.pop_back();
   }
 
   // One of the best moved by the difference of two others, within the domain.
@@ -47,8 +49,7 @@ class SearchPool {
   }
 
  private:
-  static constexpr std::size_t kept = 48;
-
+  std::size_t capacity_;
   std::vector<SearchElite<Position>> points_;  // by falling error
 };
 

@@ -50,6 +50,41 @@ TEST(SearchBands, EndWhereErrorsAreLargeOnTheWhole) {
   EXPECT_LE(band.high[0] - band.low[0], Position(1) << 24);
 }
 
+TEST(SearchBands, LookBesideTheBestOfThem) {
+  // Every box of 2^24 positions has an amplitude of its own; the beam starts in one of them.
+  const auto amplitude = [](Position x) { return 1 + noise(x >> 24); };
+  SearchBands<Position> bands;
+  Box root;
+  root.high[0] = Position(1) << 44;
+  Box one;
+  one.low[0] = Position(5) << 40;
+  one.high[0] = one.low[0] + (Position(1) << 23);
+  bands.start(one, 1, 1U << 22U);
+  SearchRandom random(5);
+  const auto generation = [&] {
+    std::vector<double> scores;
+    for (const Box& box : bands.boxes()) {
+      EXPECT_GE(box.low[0], root.low[0]);
+      EXPECT_LE(box.high[0], root.high[0]);
+      EXPECT_LT(box.low[0], box.high[0]);
+      scores.push_back(amplitude(box.low[0]));
+    }
+    bands.advance(scores, 1);
+  };
+  while (!bands.idle()) generation();
+  const double first = bands.chosen(random).error;
+  double best = first;
+  for (int turn = 0; turn < 60; ++turn) {
+    bands.start_beside(bands.chosen(random), random, root, 1);
+    EXPECT_EQ(bands.boxes().size(), 16U);
+    generation();
+    EXPECT_TRUE(bands.idle());
+    best = std::max(best, bands.chosen(random).error);
+  }
+  EXPECT_LT(first, 1.95);
+  EXPECT_GT(best, 1.98) << "of a thousand amplitudes below 2";
+}
+
 TEST(SearchPool, DifferencesOfLargeErrorsLeadToLargerOnes) {
   // Three periods that no step of the window shares.
   const auto error = [](Position x) {
@@ -60,7 +95,7 @@ TEST(SearchPool, DifferencesOfLargeErrorsLeadToLargerOnes) {
   domain.low[0] = -(Position(1) << 40);
   domain.high[0] = Position(1) << 40;
   SearchRandom random(3);
-  SearchPool<Position> pool;
+  SearchPool<Position> pool(48);
   const int draws = 2000;
   double random_sum = 0;
   double random_most = -3;
@@ -86,7 +121,7 @@ TEST(SearchPool, DifferencesOfLargeErrorsLeadToLargerOnes) {
 }
 
 TEST(SearchPool, KeepsEachPointOnce) {
-  SearchPool<Position> pool;
+  SearchPool<Position> pool(48);
   for (int repeat = 0; repeat < 3; ++repeat)
     for (Position x = 0; x < 7; ++x) pool.add({x}, 1.0);
   EXPECT_FALSE(pool.is_useful()) << "seven points";
