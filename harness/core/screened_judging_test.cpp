@@ -7,6 +7,7 @@
 
 #include "harness/core/recorded_figures.hpp"
 #include "harness/core/type_engine.hpp"
+#include "kernels/math/function_table.hpp"
 
 namespace ulpgate {
 namespace {
@@ -117,6 +118,44 @@ TEST(ScreenedJudging, CheapStagesDecideNearlyEverySample) {
     EXPECT_LT(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 200U);
   }
 #endif
+}
+
+// Where results leave float's range the double stage says what becomes of them: exact values down to half of
+// the least subnormal and up to the largest number, and beyond.
+TEST(ScreenedJudging, FloatNextToTheEndsOfItsRangeNeedsNoMpfr) {
+  struct Case {
+    FunctionId id;
+    float low, high;
+  };
+  const FunctionTable<float>& functions = function_table<float>();
+  constexpr std::size_t count = 2000;
+  for (const auto& [id, low, high] : {
+           Case{FunctionId::erfc, 9, 11},
+           Case{FunctionId::tgamma, -43.9F, -38.1F},
+           Case{FunctionId::tgamma, 34, 36},
+           Case{FunctionId::tgamma, 0x1p-129F, 0x1p-126F},
+           Case{FunctionId::lgamma, 0x1p119F, 0x1p123F},
+           Case{FunctionId::exp, 87, 90},
+           Case{FunctionId::exp, -105, -86},
+           Case{FunctionId::sinh, -91, -87},
+       }) {
+    const FunctionInfo& f = info_of(id);
+    std::vector<float> args(count);
+    std::vector<float> results(count);
+    std::vector<std::uint8_t> threw(count);
+    for (std::size_t i = 0; i < count; ++i)
+      args[i] = low + (high - low) * (static_cast<float>(i) / static_cast<float>(count));
+    functions[static_cast<std::size_t>(id)](args.data(), results.data(), threw.data(), count);
+    const Batch<float> batch{f, args, results, threw, 1};
+    RowHint hint(1);
+    RowTally<float> full_tally(f, hint);
+    FullJudging<float>(f).judge(batch, full_tally);
+    RowTally<float> tally(f, hint);
+    ScreenedJudging<float> judging(f);
+    judging.judge(batch, tally);
+    EXPECT_EQ(recorded_figures(tally.take()[0]), recorded_figures(full_tally.take()[0])) << f.name;
+    EXPECT_LT(judging.decided()[static_cast<std::size_t>(Stage::mpfr)], count / 100) << f.name << " " << low;
+  }
 }
 
 TEST(RecordedError, IsRoundedUpToFortyBits) {
