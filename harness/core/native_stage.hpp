@@ -42,7 +42,7 @@ class NativeStage {
   [[nodiscard]] long double value(std::size_t i) const { return static_cast<long double>(results_[i]); }
 
   // What is known of `got`, the result at point i of the loaded ones, whose arguments are `args`; false where
-  // the stage has no say: special results, results next to over- and underflow, refused arguments.
+  // the stage has no say: special results, results at the ends of the range, refused arguments.
   [[nodiscard]] bool find(std::size_t i, const Real* args, Real got, Finding& finding) const {
     using L = std::numeric_limits<Real>;
     constexpr int p = L::digits;
@@ -137,8 +137,8 @@ class NativeStage {
 
   [[nodiscard]] static bool signbit_of(W value) { return std::signbit(static_cast<double>(value)); }
 
-  // Results of 0, infinity and NaN: the two agree, or the exact value lies far beyond what Real has.  Next to
-  // the ends of the range, and where they differ, the stage has no say.
+  // Results of 0, infinity and NaN: the two agree, or the exact value lies beyond what Real has, for float up
+  // to the last rounding.  Where they differ, and closer to the ends, the stage has no say.
   [[nodiscard]] bool find_special(const Real* args, const NumberBits& bits, W value, double bound, Real got,
                                   Finding& finding) const {
     using L = std::numeric_limits<Real>;

@@ -59,8 +59,9 @@ struct Assembly {
 
 namespace detail {
 
-// What a scene's constants are computed in: they are rounded to Real once.  In float arithmetic the
-// pendulum's start would be off by several roundings, and be true for 0.85 s instead of 1.10 s.
+// What a scene's constants are computed in (ConstantsRule::rounded_once), to be rounded to Real once.  In
+// float arithmetic the pendulum's start would be off by several roundings, and be true for 0.85 s instead
+// of 1.10 s.
 template <RealType Real>
 using ConstantReal = std::conditional_t<std::same_as<Real, float>, double, Real>;
 
@@ -69,8 +70,11 @@ class RoundedEvaluator {
  public:
   explicit RoundedEvaluator(ConstantsRule rule) : stepwise_(rule == ConstantsRule::stepwise) {}
   void define(const std::string& name, std::string_view text) {
-    wide_.define(name, wide_(text));
-    own_.define(name, own_(text));
+    if (stepwise_) {
+      own_.define(name, own_(text));
+    } else {
+      wide_.define(name, wide_(text));
+    }
   }
   [[nodiscard]] Real operator()(std::string_view text) const {
     return stepwise_ ? own_(text) : static_cast<Real>(wide_(text));
