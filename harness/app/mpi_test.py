@@ -20,6 +20,7 @@ SMALL = (
 MORE = ["--worst-cases", str(ROOT / "ci/worst_cases"), "--timing", "off"]
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe"]
 WAIT_S = 100
+HOLD_S = 20
 
 pytestmark = [
     pytest.mark.skipif(shutil.which("mpirun") is None, reason="no mpirun"),
@@ -64,11 +65,28 @@ def start(ranks, directory, *mpirun):
     return job, [int((directory / f"pid.{k}").read_text()) for k in range(ranks)]
 
 
+def signal_all(pids, number):
+    for pid in pids:
+        try:
+            os.kill(pid, number)
+        except ProcessLookupError:
+            pass
+
+
 def start_and_kill(ranks, victim, directory, *mpirun):
     """Kills a rank once units are kept; exit code and messages of mpirun."""
     job, pids = start(ranks, directory, *mpirun)
-    assert not (directory / "o/math.jsonl").exists()
-    os.kill(pids[victim], signal.SIGKILL)
+    # The others are held: on a busy machine they can finish before mpirun hears of the death.
+    signal_all(pids, signal.SIGSTOP)
+    assert not (directory / "o/math.jsonl").exists(), "the job is too short"
+    victims_pid = pids.pop(victim)
+    os.kill(victims_pid, signal.SIGKILL)
+    if "--enable-recovery" not in mpirun:
+        try:
+            job.wait(timeout=HOLD_S)
+        except subprocess.TimeoutExpired:
+            pass
+    signal_all(pids, signal.SIGCONT)
     text, _ = job.communicate(timeout=WAIT_S)
     return job.returncode, text
 
@@ -87,6 +105,11 @@ def test_ranks_give_the_bytes_of_one_process(ranks, one, tmp_path):
 def test_a_job_that_lost_a_rank_goes_on(victim, one, tmp_path):
     code, text = start_and_kill(3, victim, tmp_path)
     assert code != 0, text
+    if not (tmp_path / "o/units").exists():
+        # mpirun has been seen to miss a death; then the others did the dead rank's unit too.
+        assert victim != 0 and f"no answer from rank {victim}" in text, text
+        assert (tmp_path / "o/math.jsonl").read_bytes() == one
+        return
     assert " u " in (tmp_path / "o/units/log.txt").read_text()
     code, err = run(2, tmp_path / "o")
     assert code == 2 and "--resume" in err
@@ -97,7 +120,8 @@ def test_a_job_that_lost_a_rank_goes_on(victim, one, tmp_path):
 
 
 def test_one_process_goes_on_with_what_ranks_began(one, tmp_path):
-    start_and_kill(2, 1, tmp_path)
+    _, text = start_and_kill(2, 1, tmp_path)
+    assert (tmp_path / "o/units").exists(), text
     words = [ULPGATE, "math", *SMALL, *MORE, "--resume", "--out", str(tmp_path / "o")]
     done = subprocess.run(words, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
