@@ -35,6 +35,8 @@ using BoundedFunction = void (*)(const W* args, W* results, double* bounds, std:
 // negative numbers in binary128, and the Bessel functions altogether.  sin, cos and tan of double beyond 2^20
 // get a bound of 2^19 ulp where the result is below 2^-20 (or the tangent above 2^20): next to multiples of
 // pi/2 the argument reduction of glibc 2.36 is off by 1.4e5 ulp, an absolute error that is nothing elsewhere.
+// Binary32 arguments from 2^22 on have a reduction of their own where libmvec serves (large_angles.hpp);
+// tgamma and lgamma have short series far out and next to 0.
 template <class W>
 [[nodiscard]] BoundedFunction<W> bounded_function(FunctionId id);
 

@@ -63,6 +63,77 @@ TEST(NativeFunctions, KeepTheirBoundsInBinary64) {
   }
 }
 
+// Numbers of 24 bits, 40 in every binade from 2^least on, of both signs.
+std::vector<double> large_floats(int least) {
+  std::mt19937 words(12);
+  std::vector<double> list;
+  for (int exponent = least; exponent < 128; ++exponent) {
+    for (int i = 0; i < 40; ++i) {
+      const double x = std::ldexp(1 + static_cast<double>(words() >> 9U) * 0x1p-23, exponent);
+      list.push_back(i % 2 == 0 ? x : -x);
+    }
+  }
+  return list;
+}
+
+TEST(NativeFunctions, ReduceLargeAnglesToTheirLastBits) {
+  auto args = large_floats(18);
+  // Of all binary32 numbers the one closest to a multiple of pi/2 (Muller, "Elementary Functions", 3rd
+  // edition, chapter 11), 1.6e-9 from it.
+  constexpr double closest = 16367173 * 0x1p72;
+  args.insert(args.end(), {closest, -closest, 0x1.fffffep127, -0x1.fffffep127, 0x1p22, 0x1.fffffep21});
+  std::vector<double> results(args.size());
+  std::vector<double> bounds(args.size());
+  for (const FunctionId id : {FunctionId::sin, FunctionId::cos, FunctionId::tan}) {
+    bounded_function<double>(id)(args.data(), results.data(), bounds.data(), args.size(), 24);
+    for (std::size_t i = 0; i < args.size(); ++i) {
+      EXPECT_TRUE(holds(id, args[i], results[i], bounds[i]));
+      if (vector_function(id) != nullptr && std::fabs(args[i]) >= 0x1p22) {
+        EXPECT_LE(bounds[i], 16);
+      }
+    }
+  }
+  double cosine = 0;
+  bounded_function<double>(FunctionId::cos)(&closest, &cosine, bounds.data(), 1, 24);
+  EXPECT_LT(std::fabs(cosine), 2e-9);
+}
+
+TEST(NativeFunctions, KeepTheirBoundsAtTheEndsOfShortSeries) {
+  auto args = large_floats(2);
+  for (const double x :
+       {0x1p-27, 0x1.fffffep-28, 64.0, 0x1.fffffep5, 171.625, 171.75, 8388607.0, 8388608.0}) {
+    args.push_back(x);
+    args.push_back(-x);
+  }
+  for (int exponent = -149; exponent < -20; ++exponent) {
+    args.push_back(std::ldexp(1.0, exponent));
+    args.push_back(-std::ldexp(1.75, exponent));
+  }
+  std::vector<double> results(args.size());
+  std::vector<double> bounds(args.size());
+  for (const FunctionId id : {FunctionId::tgamma, FunctionId::lgamma}) {
+    bounded_function<double>(id)(args.data(), results.data(), bounds.data(), args.size(), 24);
+    for (std::size_t i = 0; i < args.size(); ++i) EXPECT_TRUE(holds(id, args[i], results[i], bounds[i]));
+  }
+}
+
+TEST(VectorFunctions, KeepTheirBoundsAtTheEndsOfTheirRanges) {
+  // 0 to 30 in steps of 1/32, where hyperbolic and error functions reach their limits, and the ends of exp.
+  std::vector<double> args;
+  for (int i = 0; i < 960; ++i) args.push_back(i / 32.0);
+  for (int i = -64; i <= 64; ++i) {
+    for (const double end : {708.5, 709.78, 710.5, 1022.5, 1024.0, 1.0}) args.push_back(end + i * 0x1p-7);
+  }
+  for (std::size_t i = args.size(); i > 0; --i) args.push_back(-args[i - 1]);
+  std::vector<double> results(args.size());
+  std::vector<double> bounds(args.size());
+  for (const FunctionInfo& f : all_functions()) {
+    if (vector_function(f.id) == nullptr) continue;
+    bounded_function<double>(f.id)(args.data(), results.data(), bounds.data(), args.size(), 24);
+    for (std::size_t i = 0; i < args.size(); ++i) EXPECT_TRUE(holds(f.id, args[i], results[i], bounds[i]));
+  }
+}
+
 TEST(VectorFunctions, AnswerForEveryCountAlike) {
   if (vector_function(FunctionId::exp) == nullptr) GTEST_SKIP() << "no libmvec on this machine";
   const std::vector<double> args = floats(100);

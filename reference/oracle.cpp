@@ -61,6 +61,14 @@ struct ComplexArgument {
 // What our compositions say of their parts.
 constexpr ExactParts not_known = {Exactness::unknown, Exactness::unknown};
 
+// Transcendental parts.  Of z = x + iy with numbers x, y that are not 0:
+// - the parts of sin, cos, sinh, cosh, exp and polar are sums of exponentials of distinct algebraic numbers,
+//   none of them 0, with algebraic coefficients; by Lindemann and Weierstrass no such sum is algebraic.  A
+//   part of tan or tanh that were an algebraic number would make one such sum 0;
+// - the parts of the inverse functions are half-angles and logarithms of algebraic numbers, and not 0 (see
+//   the formulas in oracle_complex.cpp): transcendental by the same theorem.
+constexpr ExactParts transcendental = {Exactness::rounded, Exactness::rounded};
+
 // MPFR's ternary value is zero exactly where nothing was rounded.
 Exactness exactness(int ternary) {
   return ternary == 0 ? Exactness::exact : Exactness::rounded;
@@ -77,13 +85,20 @@ ExactParts complex_parts(ExactParts parts) {
   return parts;
 }
 
+// Of a composition of MPFR's functions: where no step was rounded the value is exact.
+ExactParts parts_by_flag() {
+  if (mpfr_inexflag_p() != 0) return not_known;
+  return {Exactness::exact, Exactness::exact};
+}
+
 // polar(r, t) = (r cos t, r sin t); 32 guard bits make the product's error 2^-31 ulp at most.
-void polar(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
+ExactParts polar(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
   MpfrValue s(mpfr_get_prec(out[0]) + 32);
   MpfrValue c(mpfr_get_prec(out[0]) + 32);
   mpfr_sin_cos(s, c, a[1], nearest);
   mpfr_mul(out[0], a[0], c, nearest);
   mpfr_mul(out[1], a[0], s, nearest);
+  return mpfr_regular_p(a[0].get()) && mpfr_regular_p(a[1].get()) ? transcendental : parts_by_flag();
 }
 
 // For a + ib with `trigonometric` a and `hyperbolic` b, tan(a + ib) has the parts
@@ -118,17 +133,22 @@ bool is_finite(mpc_srcptr z) {
   return mpfr_number_p(mpc_realref(z)) != 0 && mpfr_number_p(mpc_imagref(z)) != 0;
 }
 
+// Of finite z.
+ExactParts tangent_exactness(mpc_srcptr z) {
+  return mpfr_zero_p(mpc_realref(z)) || mpfr_zero_p(mpc_imagref(z)) ? not_known : transcendental;
+}
+
 ExactParts tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
   if (!is_finite(z)) return complex_parts(mpc_tan(out, z, rounding));
   tangent_parts(mpc_realref(out), mpc_imagref(out), mpc_realref(z), mpc_imagref(z));
-  return not_known;
+  return tangent_exactness(z);
 }
 
 // tanh z = -i tan(iz): the parts of z change their roles.
 ExactParts hyperbolic_tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
   if (!is_finite(z)) return complex_parts(mpc_tanh(out, z, rounding));
   tangent_parts(mpc_imagref(out), mpc_realref(out), mpc_imagref(z), mpc_realref(z));
-  return not_known;
+  return tangent_exactness(z);
 }
 
 long exponent_of(mpfr_srcptr x) {
@@ -208,14 +228,8 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
   }
 }
 
-// Of a composition of MPFR's functions: where no step was rounded the value is exact.
-ExactParts parts_by_flag() {
-  if (mpfr_inexflag_p() != 0) return not_known;
-  return {Exactness::exact, Exactness::exact};
-}
-
 ExactParts evaluate(const FunctionInfo& f, std::span<const MpfrValue> a, std::span<MpfrValue> out) {
-  if (f.function_class == FunctionClass::complex && oracle::complex_value(f, a, out)) return not_known;
+  if (f.function_class == FunctionClass::complex && oracle::complex_value(f, a, out)) return transcendental;
   switch (f.id) {
 #define REAL1(name, d0, hard, call) \
   case FunctionId::name:            \
@@ -247,8 +261,7 @@ ExactParts evaluate(const FunctionInfo& f, std::span<const MpfrValue> a, std::sp
   }
 #define POLAR(token, callee) \
   case FunctionId::token:    \
-    polar(a, out);           \
-    return parts_by_flag();
+    return polar(a, out);
 #define SPECIAL1(token, d0) \
   case FunctionId::token:   \
     oracle::token(a, out);  \

@@ -140,6 +140,30 @@ TEST(Oracle, OwnComplexFormulasAgreeWithMpc) {
   }
 }
 
+// Lindemann and Weierstrass: off the axes no part is a binary number, however close it comes to one.
+TEST(Oracle, PartsOfElementaryComplexFunctionsAreTranscendental) {
+  std::vector<MpfrValue> args;
+  for (const double x : {0x1p-300, -0x1p-400}) {
+    args.emplace_back(53);
+    mpfr_set_d(args.back(), x, MPFR_RNDN);
+  }
+  for (const FunctionId id :
+       {FunctionId::csin, FunctionId::ccos, FunctionId::ctan, FunctionId::csinh, FunctionId::ccosh,
+        FunctionId::ctanh, FunctionId::casin, FunctionId::cacos, FunctionId::catan, FunctionId::casinh,
+        FunctionId::cacosh, FunctionId::catanh, FunctionId::cexp, FunctionId::cpolar}) {
+    std::vector<MpfrValue> out;
+    out.emplace_back(80);
+    out.emplace_back(80);
+    const ExactParts parts = exact_value(info_of(id), args, out);
+    EXPECT_EQ(parts[0], Exactness::rounded) << info_of(id).name;
+    EXPECT_EQ(parts[1], Exactness::rounded) << info_of(id).name;
+    mpfr_set_zero(args[1], 1);
+    const ExactParts on_axis = exact_value(info_of(id), args, out);
+    EXPECT_TRUE(mpfr_zero_p(out[1].get()) == 0 || on_axis[1] != Exactness::rounded) << info_of(id).name;
+    mpfr_set_d(args[1], -0x1p-400, MPFR_RNDN);
+  }
+}
+
 TEST(Oracle, SpecialValuesFollowC99) {
   const auto is = [](FunctionId id, std::initializer_list<const char*> args, const char* wanted) {
     const auto got = exact(id, args);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 
+#include "kernels/math/boost_start_up.hpp"
 #include "reference/complex.hpp"
 #include "reference/function_info.hpp"
 
