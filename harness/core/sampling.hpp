@@ -155,8 +155,14 @@ class Arguments {
   void make_all(std::uint64_t k, std::size_t count, Real* out) const {
     if constexpr (std::same_as<Real, float>) {
       if (source_.stratum == Stratum::exhaustive) {
-        for (std::size_t i = 0; i < count; ++i)
-          out[i] = std::bit_cast<float>(detail::exhaustive_pattern(k + i));
+        // Of one block mostly, and there neighbours.
+        if ((k & 0xfffffU) + count <= 0x100000U) {
+          const std::uint32_t pattern = detail::exhaustive_pattern(k);
+          for (std::uint32_t i = 0; i < count; ++i) out[i] = std::bit_cast<float>(pattern + i);
+        } else {
+          for (std::size_t i = 0; i < count; ++i)
+            out[i] = std::bit_cast<float>(detail::exhaustive_pattern(k + i));
+        }
         return;
       }
     }

@@ -2,6 +2,7 @@
 // next, at the end to the full reference, and a fixed share is always checked against it.
 #pragma once
 
+#include <cstring>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -60,7 +61,7 @@ class ScreenedJudging {
     checks_.clear();
     spared_.clear();
     pending_.resize(batch.count());
-    std::iota(pending_.begin(), pending_.end(), std::size_t{0});
+    if (!may_scan(batch)) std::iota(pending_.begin(), pending_.end(), std::size_t{0});
     std::apply([&](auto&... stages) { (judge_natively(stages, batch, tally), ...); }, natives_);
     // What the full reference finds spares the samples behind it from being a maximum.
     for (const std::size_t i : pending_) {
@@ -117,6 +118,13 @@ class ScreenedJudging {
     return (batch.first_index + i) % deep_check_stride == 0;
   }
 
+  // Whether a whole batch is scanned first, which leaves in pending_ what is left over.
+  [[nodiscard]] bool may_scan(const Batch<Real>& batch) const {
+    if constexpr (std::same_as<Real, float>)
+      return std::get<0>(natives_).exists() && batch.function.arity == 1;
+    return false;
+  }
+
   template <class Native>
   void judge_natively(Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
     if (!native.exists() || pending_.empty()) return;
@@ -125,7 +133,7 @@ class ScreenedJudging {
     if (whole) {
       native.load(batch.args, batch.count());
       if constexpr (std::same_as<Native, ScanningStage>) {
-        if (batch.function.arity == 1) settle_ordinary(native, batch, tally);
+        if (may_scan(batch)) settle_ordinary(native, batch, tally);
       }
     } else {
       gathered_.clear();
@@ -167,10 +175,24 @@ class ScreenedJudging {
       verdicts_[i] = verdict::unsettled;
     tally.count_scanned(verdicts_, batch.first_index);
     std::size_t left = 0;
-    for (std::size_t i = 0; i < batch.count(); ++i) {
-      pending_[left] = i;
-      left += verdicts_[i] == verdict::unsettled ? 1U : 0U;
+    std::size_t i = 0;
+    const auto look = [&](std::size_t last) {
+      for (; i < last; ++i) {
+        pending_[left] = i;
+        left += verdicts_[i] == verdict::unsettled ? 1U : 0U;
+      }
+    };
+    while (i + 8 <= batch.count()) {
+      // No other verdict has the first bit of a byte.
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, &verdicts_[i], sizeof eight);
+      if ((eight & 0x8080808080808080U) == 0) {
+        i += 8;
+      } else {
+        look(i + 8);
+      }
     }
+    look(batch.count());
     pending_.resize(left);
     decided_[static_cast<std::size_t>(Stage::binary64)] += batch.count() - left;
   }

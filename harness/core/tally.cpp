@@ -35,13 +35,23 @@ void Tally::count(const Finding& f, std::uint64_t k) {
 }
 
 void Tally::count_scanned(std::span<const std::uint8_t> verdicts, std::uint64_t first) {
-  std::array<std::uint64_t, 256> counts{};
-  for (const std::uint8_t v : verdicts) ++counts[v];
+  // Neighbours are alike, and one counter in turn would wait for itself.
+  constexpr std::size_t codes = 32;
+  static_assert(verdict::agreed < codes - 1 && verdict::unsettled % codes == codes - 1);
+  std::array<std::array<std::uint32_t, codes>, 4> some{};
+  std::size_t i = 0;
+  for (; i + 4 <= verdicts.size(); i += 4) {
+    for (std::size_t j = 0; j < 4; ++j) ++some[j][verdicts[i + j] % codes];
+  }
+  for (; i < verdicts.size(); ++i) ++some[0][verdicts[i] % codes];
+  std::array<std::uint64_t, codes> counts{};
+  for (const auto& list : some)
+    for (std::size_t code = 0; code < codes; ++code) counts[code] += list[code];
   const auto first_where = [&](auto&& wanted) {
     return first + static_cast<std::uint64_t>(std::ranges::find_if(verdicts, wanted) - verdicts.begin());
   };
   const std::uint64_t agreed = counts[verdict::agreed];
-  const std::uint64_t settled = verdicts.size() - counts[verdict::unsettled];
+  const std::uint64_t settled = verdicts.size() - counts[codes - 1];
   if (agreed > 0) {
     const std::uint64_t k = first_where([](std::uint8_t v) { return v == verdict::agreed; });
     count({}, k);
