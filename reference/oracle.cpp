@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reference/oracle_complex.hpp"
+#include "reference/oracle_erf.hpp"
 #include "reference/oracle_gamma.hpp"
 #include "reference/oracle_special.hpp"
 
@@ -27,6 +28,14 @@ int exact_logb(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t rounding) {
     return mpfr_set_si(out, static_cast<long>(mpfr_get_exp(x)) - 1, rounding);
   }
   return 0;
+}
+
+int exact_erf(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
+  return oracle::error_function(out, x);
+}
+
+int exact_erfc(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
+  return oracle::complementary_error_function(out, x);
 }
 
 int exact_gamma(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {

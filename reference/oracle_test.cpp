@@ -7,9 +7,11 @@
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/special_functions/laguerre.hpp>
 #include <boost/math/special_functions/spherical_harmonic.hpp>
+#include <cmath>
 
 #include "reference/condition.hpp"
 #include "reference/exchange.hpp"
+#include "reference/oracle_erf.hpp"
 #include "reference/oracle_gamma.hpp"
 
 namespace ulpgate {
@@ -106,6 +108,38 @@ TEST(Oracle, GammasNextToZeroAreThoseOfMpfr) {
         rounded = oracle::log_gamma(got, x);
         EXPECT_EQ(sign(rounded), sign(mpfr_lgamma(want, &ignored, x, MPFR_RNDN))) << at;
         EXPECT_NE(mpfr_equal_p(got, want), 0) << "lgamma " << at;
+      }
+    }
+  }
+}
+
+TEST(Oracle, ErrorFunctionsAreThoseOfMpfr) {
+  const WideExponentRange range;
+  const auto sign = [](int n) { return (n > 0) - (n < 0); };
+  std::vector<double> points = {1.5, 0x1.7ffffffffffffp+0, 64, 0x1.0000000000001p+6, 26.5, 100, 1e9};
+  // Around the ends of the strips, sqrt(bits ln 2), of all precisions below.
+  for (double x = 1.6; x < 30; x += 0.83) points.push_back(x);
+  for (const long precision : {24L, 56L, 85L, 113L, 145L, 239L, 532L}) {
+    const double strip = std::sqrt(static_cast<double>(precision + 52) * std::log(2.0));
+    for (const double offset : {-0.5, -0.4, -0.01, 0.0, 0.01, 0.4, 0.5, 1.0})
+      points.push_back(strip + offset);
+  }
+  for (const long precision : {24L, 56L, 85L, 113L, 145L, 239L, 532L}) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      // MPFR's own takes milliseconds a point there.
+      if (precision > 200 && points[i] > 12 && i % 5 != 0) continue;
+      for (const int side : {1, -1}) {
+        MpfrValue x(std::min(precision, 200L)), got(precision), want(precision);
+        mpfr_set_d(x, side * points[i], MPFR_RNDN);
+        mpfr_div_ui(x, x, 3, MPFR_RNDN);
+        mpfr_mul_ui(x, x, 3, MPFR_RNDN);
+        const std::string at = std::to_string(side * points[i]) + " in " + std::to_string(precision);
+        int rounded = oracle::complementary_error_function(got, x);
+        EXPECT_EQ(sign(rounded), sign(mpfr_erfc(want, x, MPFR_RNDN))) << at;
+        EXPECT_NE(mpfr_equal_p(got, want), 0) << "erfc " << at;
+        rounded = oracle::error_function(got, x);
+        EXPECT_EQ(sign(rounded), sign(mpfr_erf(want, x, MPFR_RNDN))) << at;
+        EXPECT_NE(mpfr_equal_p(got, want), 0) << "erf " << at;
       }
     }
   }
