@@ -78,9 +78,10 @@ constexpr ExactParts not_known = {Exactness::unknown, Exactness::unknown};
 //   the formulas in oracle_complex.cpp): transcendental by the same theorem.
 constexpr ExactParts transcendental = {Exactness::rounded, Exactness::rounded};
 
-// MPFR's ternary value is zero exactly where nothing was rounded.
+// MPFR's ternary value is zero exactly where nothing was rounded, and has the sign of the rounding.
 Exactness exactness(int ternary) {
-  return ternary == 0 ? Exactness::exact : Exactness::rounded;
+  if (ternary == 0) return Exactness::exact;
+  return ternary > 0 ? Exactness::rounded_up : Exactness::rounded_down;
 }
 
 ExactParts real_part(int ternary) {

@@ -10,8 +10,12 @@
 
 namespace ulpgate {
 
-// What is known of a part: that it is the exact value, or that the exact value is another one.
-enum class Exactness { unknown, exact, rounded };
+// What is known of a part: that it is the exact value, or that the exact value is another one, at times on
+// which side: a part that was rounded up is larger than the exact value.
+enum class Exactness { unknown, exact, rounded, rounded_up, rounded_down };
+[[nodiscard]] constexpr bool is_rounded(Exactness e) {
+  return e == Exactness::rounded || e == Exactness::rounded_up || e == Exactness::rounded_down;
+}
 using ExactParts = std::array<Exactness, 2>;
 
 // out[i] = part i of f(args), args taken exactly; the precision of out[i] is that of the result.

@@ -35,6 +35,7 @@ class Engine final : public TypeEngine {
   [[nodiscard]] std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
                                               std::uint64_t first, std::uint64_t last, ReferenceMode mode,
                                               RowHint& hint) const override {
+    if (mode == ReferenceMode::screened) preview(f, source, first, last, hint);
     RowTally<Real> tally(f, hint);
     if (mode == ReferenceMode::full) {
       FullJudging<Real> judging(f);
@@ -85,6 +86,25 @@ class Engine final : public TypeEngine {
     std::vector<Real> results_;
     std::vector<std::uint8_t> threw_;
   };
+
+  // Tells the hint of a row of which nothing is known the largest error of a few points all over the unit.
+  // Where a function is next to a constant all errors are tiny, and each would climb for being the maximum.
+  void preview(const FunctionInfo& f, const StratumSource& source, std::uint64_t first, std::uint64_t last,
+               RowHint& hint) const {
+    constexpr std::uint64_t points = 32;
+    if (RowTally<Real>(f, hint).knows_maxima() || last - first < 8 * points) return;
+    // The unit meets these points again and counts them then, which goes for their conditions as well.
+    RowHint found(f.parts);
+    RowTally<Real> tally(f, found);
+    ScreenedJudging<Real> judging(f);
+    for (std::uint64_t j = 0; j < points; ++j) {
+      const std::uint64_t k = first + (last - first) * (2 * j + 1) / (2 * points);
+      run(f, source, k, k + 1, judging, tally);
+    }
+    static_cast<void>(tally.take());
+    for (std::size_t part = 0; part < static_cast<std::size_t>(f.parts); ++part)
+      hint.raise_max_error(part, found.max_error(part));
+  }
 
   // All buffers are those of the batch: nothing is allocated a sample, and the one indirect call is a
   // batch's.

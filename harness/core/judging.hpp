@@ -30,6 +30,12 @@ struct Batch {
   }
 };
 
+// Whether the spacing of Real's numbers is twice as large above 2^power as below.
+template <RealType Real>
+[[nodiscard]] bool spacing_jumps_at(mpfr_exp_t power) {
+  return power > float_format<Real>().exponent_min && power <= float_format<Real>().exponent_max;
+}
+
 // Evaluates the exact value; what it promises is what exact_value promises.
 using ExactFunction = ExactParts (*)(const FunctionInfo&, std::span<const MpfrValue>, std::span<MpfrValue>);
 
@@ -95,9 +101,10 @@ class FullJudging {
     if (threw_) return exception_judgement;
     mpfr_srcptr got = point_.got(batch, i, part);
     Judgement j = point_.judge(got, point_.exact(part));
+    if (lies_below_its_power(part)) j.error.value *= 2;
     // A result equal to a rounded reference is wrong by less than the reference can say, but wrong.  So is a
     // zero where the exact value has left even MPFR's range.
-    if (point_.exactness(part) == Exactness::rounded && mpfr_number_p(got) != 0 &&
+    if (is_rounded(point_.exactness(part)) && mpfr_number_p(got) != 0 &&
         mpfr_equal_p(got, point_.exact(part)) != 0) {
       j.error.value = smallest_error;
     }
@@ -126,6 +133,15 @@ class FullJudging {
   }
 
  private:
+  // A power of two that was rounded away from zero stands for a number of the binade below.
+  [[nodiscard]] bool lies_below_its_power(std::size_t part) {
+    mpfr_srcptr exact = point_.exact(part);
+    if (mpfr_regular_p(exact) == 0) return false;
+    const Exactness away = mpfr_sgn(exact) > 0 ? Exactness::rounded_up : Exactness::rounded_down;
+    return point_.exactness(part) == away && mpfr_min_prec(exact) == 1 &&
+           spacing_jumps_at<Real>(mpfr_get_exp(exact) - 1);
+  }
+
   PointJudge<Real> point_;
   bool threw_ = false;
 };

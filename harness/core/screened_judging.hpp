@@ -229,11 +229,11 @@ class ScreenedJudging {
     if (!mpfr_regular_p(value)) return false;
     mpfr_set_prec(upper_, mpfr_get_prec(value));
     mpfr_set(upper_, value, MPFR_RNDN);
-    mpfr_nextabove(upper_);
-    const bool equal = exactness == Exactness::rounded && mpfr_equal_p(got, value) != 0;
-    mpfr_nextbelow(value);
-    const Judgement a = stage_.judge(got, value);
-    const Judgement b = stage_.judge(got, upper_);
+    const bool equal = is_rounded(exactness) && mpfr_equal_p(got, value) != 0;
+    if (exactness != Exactness::rounded_up) mpfr_nextabove(upper_);
+    if (exactness != Exactness::rounded_down) mpfr_nextbelow(value);
+    Judgement a = stage_.judge(got, value);
+    Judgement b = stage_.judge(got, upper_);
     if (a.outcome != b.outcome) return false;
     finding = finding_of(a);
     if (a.outcome != Outcome::finite) return true;
@@ -241,11 +241,18 @@ class ScreenedJudging {
     // Within the interval the error may be anything down to an exact zero, unless that is known not to be.
     const bool inside = mpfr_lessequal_p(value, got) && mpfr_lessequal_p(got, upper_);
     if (inside && !equal) return false;
+    // At a power of two the spacing jumps, and the error with it.
+    const mpfr_exp_t low = mpfr_get_exp(static_cast<mpfr_srcptr>(value));
+    const mpfr_exp_t high = mpfr_get_exp(upper_.get());
+    const bool jump = low != high;
+    const bool one_side = exactness == Exactness::rounded_up || exactness == Exactness::rounded_down;
+    // The interval ends there, or all of it would lie on both sides; the end takes the spacing of the inside.
+    const bool at_end = jump && one_side && spacing_jumps_at<Real>(std::max(low, high) - 1);
+    if (at_end) (low > high ? a : b).error.value *= 2;
     constexpr double margin = 0x1p-50;
     finding.least = equal ? smallest_error : std::min(a.error, b.error).value * (1 - margin);
     finding.greatest = std::max(a.error, b.error).value * (1 + margin);
-    // Across a power of two the spacing jumps between its two ends, and the error with it.
-    if (mpfr_get_exp(static_cast<mpfr_srcptr>(value)) != mpfr_get_exp(upper_.get())) {
+    if (jump && !at_end) {
       if (!equal) finding.least /= 2;
       finding.greatest *= 2;
     }

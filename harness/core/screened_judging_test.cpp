@@ -34,6 +34,18 @@ TEST(ScreenedJudging, GivesTheRecordsOfTheFullReference) {
   }
 }
 
+// erf is -1 or 1 to more bits than the MPFR stage has: where the type has a neighbour of that, the error is
+// known from the side on which the exact value lies.
+TEST(ScreenedJudging, SettlesResultsNextToAPowerOfTwo) {
+  const TypeEngine* engine = find_engine("mpfr62");
+  if (engine == nullptr) GTEST_SKIP() << "no mpfr62 in this build";
+  const FunctionInfo& erf = info_of(FunctionId::erf);
+  const StratumSource source{Stratum::stratified, 1, 2000, nullptr};
+  RowHint hint(1);
+  static_cast<void>(engine->evaluate(erf, source, 0, source.count, ReferenceMode::screened, hint));
+  EXPECT_GE(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 1950U);
+}
+
 // Off by a thousand units of its own precision, and told as exact, so that the lie decides.
 ExactParts lying_mpfr(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out) {
   exact_value(f, args, out);
