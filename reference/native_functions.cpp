@@ -180,7 +180,7 @@ double bound_at(W x, W result) {
 }
 
 // The gamma functions of binary64 where a short formula does: a tenth of the library's time, for nine of ten
-// binary32 numbers.  NaN where there is none.
+// binary32 numbers.  `known` says whether there is one.
 // Negative numbers of 24 bits from here on are integers, poles of both.
 constexpr double poles_below = -0x1p23;
 constexpr double gamma_series_below = 0x1p-27;

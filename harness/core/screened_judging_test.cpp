@@ -34,9 +34,9 @@ TEST(ScreenedJudging, GivesTheRecordsOfTheFullReference) {
   }
 }
 
-// erf is -1 or 1 to more bits than the MPFR stage has: where the type has a neighbour of that, the error is
-// known from the side on which the exact value lies.
-TEST(ScreenedJudging, SettlesResultsNextToAPowerOfTwo) {
+// Four in five points have an erf that is -1 or 1 to more bits than the MPFR stage has: their tiny errors tie
+// for the maximum until a preview has found a larger one.
+TEST(ScreenedJudging, APlateauOfTinyErrorsDoesNotClimb) {
   const TypeEngine* engine = find_engine("mpfr62");
   if (engine == nullptr) GTEST_SKIP() << "no mpfr62 in this build";
   const FunctionInfo& erf = info_of(FunctionId::erf);
