@@ -1,9 +1,9 @@
 // Benchmarks of the DEM: every kernel of every type on typical states, and steps of the scenes.
 #include <benchmark/benchmark.h>
 
-#include "harness/app/scene_files.hpp"
-#include "harness/core/kernel_engine.hpp"
-#include "kernels/dem/engine.hpp"
+#include "harness/app/scenes/scene_files.hpp"
+#include "harness/core/kernels/kernel_engine.hpp"
+#include "kernels/dem/engine/engine.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 //   engine_benchmark --benchmark_filter='/(sin|exp)/(double|long_double)'
 #include <benchmark/benchmark.h>
 
-#include "harness/core/type_engine.hpp"
+#include "harness/core/subject/type_engine.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "reference/function_info.hpp"
-#include "reference/real_types.hpp"
+#include "reference/functions/function_info.hpp"
+#include "reference/types/real_types.hpp"
 
 namespace ulpgate {
 

@@ -40,7 +40,7 @@ const FunctionTable<Real>& function_table() {
 #define SPECIAL2(token, d0, d1, hard) ULPGATE_ENTRY(token)
 #define SPECIAL3(token, d0, d1, d2) ULPGATE_ENTRY(token)
 #define SPECIAL4_COMPLEX(token, d0, d1, d2, d3) ULPGATE_ENTRY(token)
-#include "reference/functions.def"
+#include "reference/functions/functions.def"
 #undef ULPGATE_ENTRY
   };
   return table;

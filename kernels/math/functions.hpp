@@ -10,8 +10,8 @@
 #include <complex>
 
 #include "kernels/math/boost_start_up.hpp"
-#include "reference/complex.hpp"
-#include "reference/function_info.hpp"
+#include "reference/functions/function_info.hpp"
+#include "reference/types/complex.hpp"
 
 namespace ulpgate::math {
 
@@ -60,7 +60,7 @@ struct Function;
 #define POLAR(token, callee)                                                                            \
   ULPGATE_COMPLEX(token, using std::callee; const Complex w = callee(a[0], a[1]); result[0] = w.real(); \
                   result[1] = w.imag();)
-#include "reference/functions.def"
+#include "reference/functions/functions.def"
 
 ULPGATE_FUNCTION(cyl_bessel_j,
                  result[0] = boost::math::cyl_bessel_j(static_cast<int>(a[0]), a[1], QuietPolicy());)

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "kernels/scenes/scene_reader.hpp"
+#include "kernels/scenes/reader/scene_reader.hpp"
 
 namespace ulpgate::dem::testing {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/ode/error_ladder.hpp"
+#include "kernels/ode/integrators/error_ladder.hpp"
 
 namespace ulpgate::ode::testing {
 

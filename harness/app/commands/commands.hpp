@@ -1,0 +1,30 @@
+// The verbs of the command line; each adds its subcommand and runs when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "harness/app/shell/failure.hpp"
+
+namespace ulpgate::app {
+
+class Ranks;
+
+// What the chosen verb does; set by the subcommand's callback.
+using Action = std::function<ExitCode()>;
+
+void add_list_command(CLI::App& app, Action& action);
+// The ranks of an MPI job, asked for when the verb runs; nullptr where the process is alone.
+using RanksOfJob = std::function<Ranks*()>;
+
+void add_math_command(CLI::App& app, Action& action, const RanksOfJob& ranks = {});
+void add_kernels_command(CLI::App& app, Action& action);
+void add_integrators_command(CLI::App& app, Action& action);
+void add_scene_command(CLI::App& app, Action& action);
+void add_at_command(CLI::App& app, Action& action);
+void add_search_command(CLI::App& app, Action& action);
+void add_merge_command(CLI::App& app, Action& action);
+void add_gate_command(CLI::App& app, Action& action);
+void add_report_command(CLI::App& app, Action& action);
+
+}  // namespace ulpgate::app

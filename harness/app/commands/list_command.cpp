@@ -1,0 +1,145 @@
+// ulpgate list: what can be measured.
+#include <fmt/format.h>
+
+#include "harness/app/commands/commands.hpp"
+#include "harness/app/scenes/scene_files.hpp"
+#include "harness/app/store/context.hpp"
+#include "kernels/ode/integrators/integrators.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+std::string domains(const FunctionInfo& f) {
+  std::string text;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(f.arity); ++i) {
+    text += (i == 0 ? "" : ",") + std::string(name_of(f.domain[i]));
+  }
+  return text;
+}
+
+void list_functions(bool json) {
+  Json rows = Json::array();
+  if (!json) fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", "function", "class", "arity", "parts", "domain");
+  for (const auto& f : all_functions()) {
+    const std::string parts = f.parts == 1 ? "value" : "re,im";
+    if (json) {
+      rows.push_back({{"function", f.name},
+                      {"class", name_of(f.function_class)},
+                      {"arity", f.arity},
+                      {"parts", parts},
+                      {"domain", domains(f)}});
+    } else {
+      fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", f.name, name_of(f.function_class), f.arity, parts,
+                 domains(f));
+    }
+  }
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
+void list_types(bool json) {
+  std::vector<std::string> tokens;
+  for (const auto& engine : all_engines()) tokens.push_back(engine->descriptor().token);
+  if (json) return fmt::print("{}\n", type_rows(tokens).dump(2));
+  const auto or_dash = [](int n) { return n == 0 ? std::string("-") : std::to_string(n); };
+  fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", "token", "C++ type", "total bits",
+             "decimal places", "exponent bits", "significand bits", "RealHP<4> bits");
+  for (const auto& engine : all_engines()) {
+    const RealDescriptor& d = engine->descriptor();
+    fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", d.token, d.cpp_type,
+               d.total_bits == 0 ? "N" : std::to_string(d.total_bits), d.decimal_places,
+               or_dash(d.exponent_bits), d.significand_bits, d.reference_bits);
+  }
+}
+
+template <class Strata>
+void print_strata(const Strata& strata, const char* what, bool json, Json& rows) {
+  for (const auto& s : strata) {
+    if (json) {
+      rows.push_back({{"of", what}, {"stratum", s.name}, {"description", s.description}});
+    } else {
+      fmt::print("{:<8} {:<11} {}\n", what, s.name, s.description);
+    }
+  }
+}
+
+void list_strata(bool json) {
+  Json rows = Json::array();
+  print_strata(all_strata, "math", json, rows);
+  print_strata(all_state_strata, "kernels", json, rows);
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
+void list_kernels(bool json) {
+  Json rows = Json::array();
+  for (const auto& k : dem::all_kernels()) {
+    std::string inputs;
+    std::string outputs;
+    for (const auto f : k.inputs) inputs += (inputs.empty() ? "" : ",") + std::string(name_of(f));
+    for (const auto& q : k.outputs) outputs += (outputs.empty() ? "" : ",") + std::string(q.name);
+    if (json) {
+      rows.push_back({{"kernel", k.name}, {"inputs", inputs}, {"outputs", outputs}});
+    } else {
+      fmt::print("{:<25} ({}) -> {}\n", k.name, inputs, outputs);
+    }
+  }
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
+void list_scenes(bool json) {
+  Json rows = Json::array();
+  for (const auto& builtin : builtin_scenes()) {
+    const auto scene = load_scene(builtin.name, {}).scene;
+    if (json) {
+      rows.push_back(
+          {{"scene", scene.name}, {"title", scene.title}, {"dt", scene.dt}, {"until", scene.until}});
+    } else {
+      fmt::print("{:<12} {} (dt {} s, until {} s)\n", scene.name, scene.title, scene.dt, scene.until);
+    }
+  }
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
+void list_integrators(bool json) {
+  Json rows = Json::array();
+  for (const auto& i : ode::integrators()) {
+    const std::string kind(ode::to_string(i.kind));
+    if (json) {
+      rows.push_back(
+          {{"integrator", i.name},
+           {"kind", kind},
+           {"order", i.order ? Json(*i.order) : Json(nullptr)},
+           {"evaluations_per_step", i.evaluations_per_step ? Json(*i.evaluations_per_step) : Json(nullptr)},
+           {"citation", i.citation}});
+    } else {
+      fmt::print("{:<20} {:<14} order {:<5} {}\n", i.name, kind, i.order ? std::to_string(*i.order) : "free",
+                 i.citation);
+    }
+  }
+  if (json) fmt::print("{}\n", rows.dump(2));
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, Action& action) {
+  auto* list = app.add_subcommand("list", "List functions, types, strata, kernels, scenes or integrators");
+  auto what = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  list->add_option("what", *what, "functions, types, strata, kernels, scenes or integrators")
+      ->required()
+      ->check(CLI::IsMember({"functions", "types", "strata", "kernels", "scenes", "integrators"}));
+  list->add_flag("--json", *json, "Print JSON");
+  list->callback([=, &action] {
+    action = [=] {
+      if (*what == "functions") list_functions(*json);
+      if (*what == "types") list_types(*json);
+      if (*what == "strata") list_strata(*json);
+      if (*what == "kernels") list_kernels(*json);
+      if (*what == "scenes") list_scenes(*json);
+      if (*what == "integrators") list_integrators(*json);
+      return ExitCode::pass;
+    };
+  });
+}
+
+}  // namespace ulpgate::app

@@ -1,0 +1,52 @@
+// Scenes by name or file.
+#include "harness/app/scenes/scene_files.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "harness/app/shell/failure.hpp"
+#include "harness/app/shell/files.hpp"
+#include "harness/app/shell/selection.hpp"
+#include "kernels/scenes/reader/scene_reader.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+std::string text_of(const std::string& name, std::string& file) {
+  for (const auto& scene : builtin_scenes()) {
+    if (name == scene.name) {
+      file = name + ".toml";
+      return scene.text;
+    }
+  }
+  file = name;
+  if (name.ends_with(".toml") || std::filesystem::exists(name)) return read_file(name);
+  std::vector<std::string> known;
+  for (const auto& scene : builtin_scenes()) known.emplace_back(scene.name);
+  unknown_name("scene", name, known);
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::string& name, const std::vector<std::string>& overrides) {
+  std::string file;
+  LoadedScene loaded;
+  loaded.text = text_of(name, file);
+  auto result = scenes::read_scene(loaded.text, file);
+  if (!result.errors.empty()) {
+    std::string message;
+    for (const auto& e : result.errors) message += (message.empty() ? "" : "\nulpgate: ") + e.text();
+    throw Failure(ExitCode::bad_input, message);
+  }
+  loaded.scene = std::move(*result.scene);
+  for (const auto& text : overrides) {
+    if (const auto error = scenes::apply_override(loaded.scene, text))
+      throw Failure(ExitCode::bad_input, fmt::format("--set {}: {}", text, error->text()));
+    loaded.text += "\n# " + text;
+  }
+  return loaded;
+}
+
+}  // namespace ulpgate::app

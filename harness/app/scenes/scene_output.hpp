@@ -1,0 +1,28 @@
+// What a scene run writes: records, series, snapshots, ParaView files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/app/store/records.hpp"
+#include "harness/core/scenes/scene_compare.hpp"
+
+namespace ulpgate::app {
+
+[[nodiscard]] std::array<double, 3> mean_position(const dem::DemEngine& engine);
+// Of every bit of positions, velocities and angular velocities.
+[[nodiscard]] std::uint64_t state_hash(const dem::DemEngine& engine);
+// body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s
+[[nodiscard]] std::string snapshot_csv(const dem::DemEngine& engine);
+// Legacy VTK, ASCII: spheres as points with radius, speed and kinetic energy, facets as triangles.
+[[nodiscard]] std::string vtk_text(const dem::DemEngine& engine, const std::string& title);
+[[nodiscard]] std::string divergence_csv(const std::vector<Divergence>& rows);
+// step,only_in,first_body,second_body: every contact that only one of the two simulations has.
+[[nodiscard]] std::string contact_differences_csv(const std::vector<Divergence>& rows);
+// " 3-7 4-9", the first few.
+[[nodiscard]] std::string pair_names(const std::vector<dem::BodyPair>& pairs);
+// The energy account as an object, null where none is kept.
+[[nodiscard]] Json energy_json(const dem::DemEngine& engine);
+
+}  // namespace ulpgate::app

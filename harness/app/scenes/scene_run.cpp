@@ -1,0 +1,141 @@
+// One simulation from its start to its end.
+#include "harness/app/scenes/scene_run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "harness/app/scenes/scene_output.hpp"
+#include "harness/app/shell/files.hpp"
+#include "harness/app/shell/interrupt.hpp"
+#include "harness/app/shell/progress.hpp"
+#include "harness/app/shell/selection.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+void write_picture(const SceneOptions& o, const std::filesystem::path& out, const std::string& stem,
+                   const dem::DemEngine& engine) {
+  const std::string name = fmt::format("{}_{}", stem, engine.iteration());
+  make_directory(out / "snapshots");
+  write_file(out / "snapshots" / (name + ".csv"), snapshot_csv(engine));
+  if (o.vtk) {
+    make_directory(out / "vtk");
+    write_file(out / "vtk" / (name + ".vtk"), vtk_text(engine, name));
+  }
+}
+
+RecordPlan record_plan(const RunRequest& request, const SceneJob& job, const SceneOptions& o) {
+  const FloatFormat& format = type_or_fail(request.token).descriptor().format;
+  RecordPlan plan;
+  plan.stem = request.stem;
+  plan.plan = job.plan;
+  plan.record_every = job.record_every;
+  plan.chain = job.loaded.scene.records("angles");
+  plan.series = o.record || o.series || o.correlate;
+  plan.trajectory = request.trajectory;
+  plan.bits = static_cast<int>(format.precision) * static_cast<int>(request.level);
+  // Decimal digits that tell any two numbers of that many bits apart: ceil(1 + bits log10(2)).
+  plan.digits = 2 + plan.bits * 30103 / 100000;
+  plan.checkpoint_s = o.checkpoint_seconds;
+  return plan;
+}
+
+}  // namespace
+
+std::string stem_of(const SceneJob& job, const std::string& token) {
+  return fmt::format("{}_{}", job.loaded.scene.name, token);
+}
+
+FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const SceneOptions& o,
+                       const std::filesystem::path& out) {
+  FinishedRun run;
+  run.engine = engine_of(request.token, request.level, job, o, o.all_parts);
+  dem::DemEngine& engine = *run.engine;
+  std::unique_ptr<dem::DemEngine> reference;
+  if (request.compare) {
+    reference = engine_of(request.token, dem::Level::reference, job, o, o.all_parts);
+    reference->restore(engine.save(), o.own_constants ? dem::Constants::own : dem::Constants::from_text);
+  }
+  const auto compare_at = request.compare ? comparison_steps(job.steps) : std::vector<std::uint64_t>();
+  const bool pictures = !out.empty() && request.level == dem::Level::own;
+  SceneRecorder recorder(out, record_plan(request, job, o), engine);
+  const InterruptGuard guard;
+  Progress progress(request.label);
+  if (!o.resume || !recorder.resume(engine)) {
+    recorder.begin();
+    recorder.add(engine);
+  }
+  // Steps between two looks at Ctrl-C.
+  const std::uint64_t most = std::clamp<std::uint64_t>(job.steps / 200, 1, 65536);
+  auto next_compare = compare_at.begin();
+  while (engine.iteration() < job.steps && !interrupted()) {
+    const std::uint64_t now = engine.iteration();
+    if (pictures && std::ranges::count(job.snapshot_steps, now) != 0)
+      write_picture(o, out, request.stem, engine);
+    std::uint64_t until = std::min(job.steps, now + most);
+    if (job.record_every != 0) until = std::min(until, (now / job.record_every + 1) * job.record_every);
+    if (next_compare != compare_at.end()) until = std::min(until, *next_compare);
+    for (const auto s : job.snapshot_steps) {
+      if (s > now) until = std::min(until, s);
+    }
+    if (now == 0) until = 1;
+    engine.step(until - now);
+    if (reference) reference->step(until - now);
+    if (until == 1 || until == job.steps || (job.record_every != 0 && until % job.record_every == 0))
+      recorder.add(engine);
+    if (next_compare != compare_at.end() && until == *next_compare) {
+      run.divergence.push_back(
+          compare_engines(engine, *reference, type_or_fail(request.token).descriptor().format));
+      ++next_compare;
+    }
+    // A comparison has no checkpoints: its reference would need them as well.
+    if (!reference && recorder.checkpoint_is_due()) recorder.checkpoint(engine);
+    progress.update(static_cast<double>(until), static_cast<double>(job.steps));
+  }
+  run.complete = engine.iteration() == job.steps;
+  if (pictures && run.complete && std::ranges::count(job.snapshot_steps, engine.iteration()) != 0)
+    write_picture(o, out, request.stem, engine);
+  // Also of a run that is complete: others of the same command may not be.
+  if (!reference) recorder.checkpoint(engine);
+  recorder.close();
+  run.statistics = recorder.statistics();
+  return run;
+}
+
+Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob& job, const SceneOptions& o) {
+  const dem::DemEngine& engine = *run.engine;
+  const SceneStatistics& s = run.statistics;
+  Json left_out = Json::array();
+  for (const auto& part : engine.explain().left_out)
+    left_out.push_back({{"part", part.part}, {"why", part.why}});
+  const auto number_or_null = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
+  Json j;
+  j["scene"] = job.loaded.scene.name;
+  j["type"] = token;
+  j["integrator"] = o.integrator;
+  j["dt"] = job.loaded.scene.dt;
+  j["variant"] = fmt::format("{}", fmt::join(o.overrides, ","));
+  j["steps"] = engine.iteration();
+  j["t_end"] = engine.time_s();
+  j["bodies"] = engine.bodies();
+  j["contacts"] = engine.contacts().size();
+  j["threads"] = o.threads;
+  j["parts_left_out"] = left_out;
+  j["kinetic_energy"] = engine.kinetic_energy();
+  j["mean_position"] = mean_position(engine);
+  j["energy"] = energy_json(engine);
+  j["energy_start"] = s.energy_start;
+  j["max_energy_error"] = s.averaged.largest();
+  j["max_energy_error_raw"] = s.raw.largest();
+  j["energy_slope"] = number_or_null(s.averaged.slope());
+  j["energy_slope_raw"] = number_or_null(s.raw.slope());
+  j["state_hash"] = fmt::format("{:016x}", state_hash(engine));
+  j["memory_bytes"] = engine.memory_bytes();
+  j["plan"] = job.plan;
+  return j;
+}
+
+}  // namespace ulpgate::app

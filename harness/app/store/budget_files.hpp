@@ -1,0 +1,14 @@
+// Budget files: one TOML file per type, DIR/<token>.toml.
+#pragma once
+
+#include <filesystem>
+
+#include "harness/core/gate/budgets.hpp"
+
+namespace ulpgate::app {
+
+// Errors name file, line and key.  A directory without budget files gives an empty set.
+[[nodiscard]] Budgets read_budgets(const std::filesystem::path& directory);
+void write_budgets(const std::filesystem::path& directory, const Budgets& budgets);
+
+}  // namespace ulpgate::app

@@ -1,0 +1,215 @@
+// Engine<Real>: the implementation of TypeEngine, instantiated in one translation unit per type.
+#pragma once
+
+#include <algorithm>
+
+#include "harness/core/functions/oracle_defects.hpp"
+#include "harness/core/judging/screened_judging.hpp"
+#include "harness/core/subject/type_engine.hpp"
+#include "kernels/math/function_table.hpp"
+#include "reference/text/text.hpp"
+
+namespace ulpgate {
+
+// One in this many samples is also evaluated with the family's RealHP<4>, chosen by its index: of a large row
+// fewer, since it costs a hundred times the sample.
+[[nodiscard]] constexpr std::uint64_t oracle_stride(const StratumSource& source) {
+  constexpr std::uint64_t small_row = std::uint64_t{1} << 18U;
+  if (source.stratum == Stratum::exhaustive) return 65537;
+  return source.count <= small_row ? 251 : 4093;
+}
+// The oracles agree when they differ by less than this, in ULP of Real; both carry some 3 p bits more than
+// Real.
+inline constexpr double oracle_tolerance_ulp = 0x1p-16;
+
+template <RealType Real>
+class Engine final : public TypeEngine {
+ public:
+  using Reference = RealHP<4, Real>;
+
+  Engine(RealDescriptor descriptor, FunctionTable<Real> functions, const FunctionTable<Reference>& family)
+      : descriptor_(std::move(descriptor)), functions_(std::move(functions)), family_(family) {}
+
+  [[nodiscard]] const RealDescriptor& descriptor() const override { return descriptor_; }
+
+  [[nodiscard]] std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
+                                              std::uint64_t first, std::uint64_t last, ReferenceMode mode,
+                                              RowHint& hint) const override {
+    if (mode == ReferenceMode::screened) preview(f, source, first, last, hint);
+    RowTally<Real> tally(f, hint);
+    if (mode == ReferenceMode::full) {
+      FullJudging<Real> judging(f);
+      run(f, source, first, last, judging, tally);
+      hint.decided[static_cast<std::size_t>(Stage::full)] += last - first;
+    } else {
+      ScreenedJudging<Real> judging(f);
+      run(f, source, first, last, judging, tally);
+      for (std::size_t s = 0; s < stage_count; ++s) hint.decided[s] += judging.decided()[s];
+    }
+    return tally.take();
+  }
+
+  [[nodiscard]] Point point(const FunctionInfo& f, const StratumSource& source,
+                            std::uint64_t k) const override {
+    std::vector<Real> args(static_cast<std::size_t>(f.arity));
+    Arguments<Real>(f, source).make(k, args.data());
+    return describe(f, args);
+  }
+
+  [[nodiscard]] Point point(const FunctionInfo& f, const std::vector<MpfrValue>& values) const override {
+    std::vector<Real> args;
+    for (const auto& v : values) args.push_back(from_mpfr<Real>(v));
+    return describe(f, args);
+  }
+
+  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(const FunctionInfo& f,
+                                                        std::size_t count) const override {
+    return std::make_unique<Timed>(f, function(f), count);
+  }
+
+ private:
+  class Timed final : public TimedBatch {
+   public:
+    Timed(const FunctionInfo& f, BatchFunction<Real> function, std::size_t count)
+        : function_(function),
+          args_(count * static_cast<std::size_t>(f.arity)),
+          results_(count * static_cast<std::size_t>(f.parts)),
+          threw_(count) {
+      const Arguments<Real> arguments(f, {Stratum::uniform, 1, count, nullptr});
+      arguments.make_all(0, count, args_.data());
+    }
+    void run(std::size_t count) override { function_(args_.data(), results_.data(), threw_.data(), count); }
+
+   private:
+    BatchFunction<Real> function_;
+    std::vector<Real> args_;
+    std::vector<Real> results_;
+    std::vector<std::uint8_t> threw_;
+  };
+
+  // Tells the hint of a row of which nothing is known the largest error of a few points all over the unit.
+  // Where a function is next to a constant all errors are tiny, and each would climb for being the maximum.
+  void preview(const FunctionInfo& f, const StratumSource& source, std::uint64_t first, std::uint64_t last,
+               RowHint& hint) const {
+    constexpr std::uint64_t points = 32;
+    if (RowTally<Real>(f, hint).knows_maxima() || last - first < 8 * points) return;
+    // The unit meets these points again and counts them then, which goes for their conditions as well.
+    RowHint found(f.parts);
+    RowTally<Real> tally(f, found);
+    ScreenedJudging<Real> judging(f);
+    for (std::uint64_t j = 0; j < points; ++j) {
+      const std::uint64_t k = first + (last - first) * (2 * j + 1) / (2 * points);
+      run(f, source, k, k + 1, judging, tally);
+    }
+    static_cast<void>(tally.take());
+    for (std::size_t part = 0; part < static_cast<std::size_t>(f.parts); ++part)
+      hint.raise_max_error(part, found.max_error(part));
+  }
+
+  // All buffers are those of the batch: nothing is allocated a sample, and the one indirect call is a
+  // batch's.
+  template <class JudgingOfUnit>
+  void run(const FunctionInfo& f, const StratumSource& source, std::uint64_t first, std::uint64_t last,
+           JudgingOfUnit& judging, RowTally<Real>& tally) const {
+    constexpr std::size_t batch_size = 256;
+    const auto arity = static_cast<std::size_t>(f.arity);
+    const auto parts = static_cast<std::size_t>(f.parts);
+    const Arguments<Real> arguments(f, source);
+    std::vector<Real> args(batch_size * arity);
+    std::vector<Real> results(batch_size * parts);
+    std::vector<std::uint8_t> threw(batch_size);
+    const std::uint64_t stride = oracle_stride(source);
+    // Nothing is known yet of a row's maxima: small batches find them before many samples climb for being
+    // one.
+    std::size_t most = tally.knows_maxima() ? batch_size : 4;
+    std::size_t n = 0;
+    for (std::uint64_t k = first; k < last; k += n, most = std::min(2 * most, batch_size)) {
+      n = std::min<std::uint64_t>(most, last - k);
+      arguments.make_all(k, n, args.data());
+      std::fill(threw.begin(), threw.end(), std::uint8_t{0});
+      function(f)(args.data(), results.data(), threw.data(), n);
+      judging.judge(
+          Batch<Real>{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}, k}, tally);
+      for (std::size_t i = (stride - k % stride) % stride; i < n; i += stride)
+        compare_oracles(f, &args[i * arity], k + i, tally);
+    }
+  }
+
+  [[nodiscard]] BatchFunction<Real> function(const FunctionInfo& f) const {
+    return functions_[static_cast<std::size_t>(f.id)];
+  }
+
+  void compare_oracles(const FunctionInfo& f, const Real* args, std::uint64_t k,
+                       RowTally<Real>& tally) const {
+    const auto parts = static_cast<std::size_t>(f.parts);
+    std::vector<Reference> wide;
+    for (int j = 0; j < f.arity; ++j) wide.push_back(widen<Reference>(args[j]));
+    std::vector<Reference> family(parts);
+    std::uint8_t threw = 0;
+    family_[static_cast<std::size_t>(f.id)](wide.data(), family.data(), &threw, 1);
+    const auto values = exact_arguments(f, args);
+    std::vector<MpfrValue> exact;
+    for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(descriptor_.reference_bits);
+    exact_value(f, values, exact);
+    MpfrValue other(descriptor_.reference_bits);
+    for (std::size_t j = 0; j < parts; ++j) {
+      OracleComparison& comparison = tally.oracle(j);
+      ++comparison.compared;
+      to_mpfr(other.get(), family[j]);
+      // Beyond Real's range both mean the same: compare what Real would make of them.
+      const bool in_range =
+          mpfr_zero_p(exact[j].get()) != 0 ||
+          (mpfr_regular_p(exact[j].get()) && binade(exact[j]) <= descriptor_.format.exponent_max &&
+           binade(exact[j]) >= descriptor_.format.exponent_least());
+      if (!in_range) {
+        round_to_format(other, descriptor_.format);
+        round_to_format(exact[j], descriptor_.format);
+      }
+      double difference = std::numeric_limits<double>::infinity();
+      if (threw != 0) {
+        // No value at all: the largest difference there is.
+      } else if (mpfr_number_p(other.get()) && mpfr_number_p(exact[j].get())) {
+        difference = ulp_error(other, exact[j], descriptor_.format).value;
+      } else if ((mpfr_nan_p(other.get()) && mpfr_nan_p(exact[j].get())) ||
+                 (mpfr_inf_p(other.get()) && mpfr_equal_p(other.get(), exact[j].get()))) {
+        difference = 0;
+      }
+      comparison.difference.add(difference, k);
+      if (difference > oracle_tolerance_ulp) ++comparison.disagreed;
+    }
+  }
+
+  [[nodiscard]] Point describe(const FunctionInfo& f, const std::vector<Real>& args) const {
+    const auto parts = static_cast<std::size_t>(f.parts);
+    std::vector<Real> results(parts);
+    std::uint8_t threw = 0;
+    function(f)(args.data(), results.data(), &threw, 1);
+    const Batch<Real> batch{f, args, results, {&threw, 1}};
+    FullJudging<Real> judging(f);
+    judging.load(batch, 0);
+    const auto values = exact_arguments(f, args.data());
+    std::vector<MpfrValue> exact;
+    for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(descriptor_.reference_bits);
+    exact_value(f, values, exact);
+    Point p;
+    for (const auto& x : args) {
+      p.args_hex.push_back(to_hexfloat(x));
+      p.args_decimal.push_back(to_decimal(x));
+    }
+    const int digits = std::max(30, descriptor_.decimal_places + 5);
+    for (std::size_t j = 0; j < parts; ++j) {
+      const bool none = threw != 0;
+      p.parts.push_back({none ? "exception" : to_hexfloat(results[j]),
+                         none ? "exception" : to_decimal(results[j]), to_decimal(exact[j].get(), digits),
+                         judging.judgement(batch, 0, j),
+                         condition_number(f, values, static_cast<int>(j), descriptor_.format.precision)});
+    }
+    return p;
+  }
+
+  RealDescriptor descriptor_;
+  FunctionTable<Real> functions_;
+  const FunctionTable<Reference>& family_;
+};
+
+}  // namespace ulpgate

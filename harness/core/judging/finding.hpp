@@ -1,0 +1,43 @@
+// Finding: what a stage of the reference knows of one part of one result.
+#pragma once
+
+#include <limits>
+
+#include "reference/oracle/oracle.hpp"
+#include "reference/ulp/ulp.hpp"
+
+namespace ulpgate {
+
+inline constexpr double smallest_error = std::numeric_limits<double>::denorm_min();
+
+// A mismatch, or a finite result whose error lies in [least, greatest] ULP.  A stage that does not know the
+// outcome, or whether the result is the correctly rounded one, gives no finding at all.
+struct Finding {
+  Outcome outcome = Outcome::finite;
+  double least = 0;  // 0 only where the result is exact
+  double greatest = 0;
+  double distance = 0;  // float_distance to the correctly rounded value, or a number that it does not exceed
+  bool distance_known = true;
+  bool correctly_rounded = true;
+
+  // Whether two errors leave the same trace wherever errors are recorded one by one.
+  [[nodiscard]] bool error_known() const {
+    return least == greatest || recorded({least}) == recorded({greatest});
+  }
+  // Whether a judgement by a better reference is one that this finding allows; a margin covers the rounding
+  // of the error itself.
+  [[nodiscard]] bool allows(const Judgement& j) const {
+    if (j.outcome != outcome) return false;
+    if (outcome != Outcome::finite) return true;
+    constexpr double margin = 0x1p-48;
+    return j.error.value >= least * (1 - margin) && j.error.value <= greatest * (1 + margin) &&
+           j.correctly_rounded == correctly_rounded &&
+           (distance_known ? j.distance == distance : j.distance <= distance);
+  }
+};
+
+[[nodiscard]] inline Finding finding_of(const Judgement& j) {
+  return {j.outcome, j.error.value, j.error.value, j.distance, true, j.correctly_rounded};
+}
+
+}  // namespace ulpgate

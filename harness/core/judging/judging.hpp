@@ -1,0 +1,149 @@
+// Batches of results, their points as MPFR values, and FullJudging, which holds every sample against the full
+// reference.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "harness/core/judging/row_tally.hpp"
+#include "reference/oracle/oracle.hpp"
+#include "reference/ulp/ulp.hpp"
+
+namespace ulpgate {
+
+// A batch of points of one function: args holds count * arity values, results count * parts.
+template <RealType Real>
+struct Batch {
+  const FunctionInfo& function;
+  std::span<const Real> args;
+  std::span<const Real> results;
+  std::span<const std::uint8_t> threw;
+  std::uint64_t first_index = 0;  // of the row's points; the others follow
+
+  [[nodiscard]] std::size_t count() const { return threw.size(); }
+  [[nodiscard]] const Real* args_of(std::size_t i) const {
+    return &args[i * static_cast<std::size_t>(function.arity)];
+  }
+  [[nodiscard]] const Real& result_of(std::size_t i, std::size_t part) const {
+    return results[i * static_cast<std::size_t>(function.parts) + part];
+  }
+};
+
+// Whether the spacing of Real's numbers is twice as large above 2^power as below.
+template <RealType Real>
+[[nodiscard]] bool spacing_jumps_at(mpfr_exp_t power) {
+  return power > float_format<Real>().exponent_min && power <= float_format<Real>().exponent_max;
+}
+
+// Evaluates the exact value; what it promises is what exact_value promises.
+using ExactFunction = ExactParts (*)(const FunctionInfo&, std::span<const MpfrValue>, std::span<MpfrValue>);
+
+// The points of a batch, one at a time, as MPFR values, and exact values of them at one precision.
+template <RealType Real>
+class PointJudge {
+ public:
+  PointJudge(const FunctionInfo& f, long reference_bits, ExactFunction evaluate = exact_value)
+      : function_(f), evaluate_(evaluate), got_(float_format<Real>().precision) {
+    for (int j = 0; j < f.arity; ++j) args_.emplace_back(float_format<Real>().precision);
+    for (int j = 0; j < f.parts; ++j) exact_.emplace_back(reference_bits);
+  }
+
+  // Evaluates the exact values of point i.
+  void load(const Batch<Real>& batch, std::size_t i) {
+    const Real* args = batch.args_of(i);
+    for (std::size_t j = 0; j < args_.size(); ++j) to_mpfr(args_[j].get(), args[j]);
+    exactness_ = evaluate_(function_, args_, exact_);
+  }
+
+  [[nodiscard]] MpfrValue& exact(std::size_t part) { return exact_[part]; }
+  [[nodiscard]] Exactness exactness(std::size_t part) const { return exactness_[part]; }
+  [[nodiscard]] long double value(std::size_t part) const { return mpfr_get_ld(exact_[part], MPFR_RNDN); }
+  [[nodiscard]] const MpfrValue& got(const Batch<Real>& batch, std::size_t i, std::size_t part) {
+    to_mpfr(got_.get(), batch.result_of(i, part));
+    return got_;
+  }
+
+  [[nodiscard]] Judgement judge(mpfr_srcptr got, mpfr_srcptr exact) const {
+    const Judgement judgement = ulpgate::judge(got, exact, float_format<Real>());
+    // The series of a special function define a value, not the sign of its zeros.
+    if (judgement.outcome == Outcome::zero_sign && function_.function_class == FunctionClass::special)
+      return {};
+    return judgement;
+  }
+
+ private:
+  const FunctionInfo& function_;
+  ExactFunction evaluate_;
+  std::vector<MpfrValue> args_;
+  std::vector<MpfrValue> exact_;
+  ExactParts exactness_{};
+  MpfrValue got_;
+};
+
+inline constexpr Judgement exception_judgement{Outcome::exception, {}, 0, false};
+
+// Every sample against MPFR at the precision of RealHP<4>.  One object per unit of work.
+template <RealType Real>
+class FullJudging {
+ public:
+  static constexpr long reference_bits = std::numeric_limits<RealHP<4, Real>>::digits;
+
+  // Fewer bits are for a ranking, which decides nothing.
+  explicit FullJudging(const FunctionInfo& f, long bits = reference_bits) : point_(f, bits) {}
+
+  // Evaluates point i; judgement(part) then judges its parts.
+  void load(const Batch<Real>& batch, std::size_t i) {
+    threw_ = batch.threw[i] != 0;
+    if (!threw_) point_.load(batch, i);
+  }
+  [[nodiscard]] Judgement judgement(const Batch<Real>& batch, std::size_t i, std::size_t part) {
+    if (threw_) return exception_judgement;
+    mpfr_srcptr got = point_.got(batch, i, part);
+    Judgement j = point_.judge(got, point_.exact(part));
+    if (lies_below_its_power(part)) j.error.value *= 2;
+    // A result equal to a rounded reference is wrong by less than the reference can say, but wrong.  So is a
+    // zero where the exact value has left even MPFR's range.
+    if (is_rounded(point_.exactness(part)) && mpfr_number_p(got) != 0 &&
+        mpfr_equal_p(got, point_.exact(part)) != 0) {
+      j.error.value = smallest_error;
+    }
+    return j;
+  }
+  [[nodiscard]] long double value(std::size_t part) const { return threw_ ? 0 : point_.value(part); }
+
+  void judge(const Batch<Real>& batch, RowTally<Real>& tally) {
+    for (std::size_t i = 0; i < batch.count(); ++i) judge(batch, i, tally);
+  }
+
+  // Point i alone.
+  void judge(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
+    load(batch, i);
+    settle(batch, i, tally);
+  }
+  // Counts point i, which is loaded.
+  void settle(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
+    std::array<Finding, max_parts> findings;
+    std::array<long double, max_parts> values{};
+    for (std::size_t part = 0; part < static_cast<std::size_t>(batch.function.parts); ++part) {
+      findings[part] = finding_of(judgement(batch, i, part));
+      values[part] = value(part);
+    }
+    tally.settle(findings, batch.first_index + i, batch.args_of(i), values);
+  }
+
+ private:
+  // A power of two that was rounded away from zero stands for a number of the binade below.
+  [[nodiscard]] bool lies_below_its_power(std::size_t part) {
+    mpfr_srcptr exact = point_.exact(part);
+    if (mpfr_regular_p(exact) == 0) return false;
+    const Exactness away = mpfr_sgn(exact) > 0 ? Exactness::rounded_up : Exactness::rounded_down;
+    return point_.exactness(part) == away && mpfr_min_prec(exact) == 1 &&
+           spacing_jumps_at<Real>(mpfr_get_exp(exact) - 1);
+  }
+
+  PointJudge<Real> point_;
+  bool threw_ = false;
+};
+
+}  // namespace ulpgate

@@ -1,0 +1,202 @@
+// NativeStage<Real, W, S>: the C library's function in the wider native type W bounds the errors of a batch.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "harness/core/judging/exact_results.hpp"
+#include "harness/core/judging/finding.hpp"
+#include "harness/core/judging/native_bits.hpp"
+#include "harness/core/judging/ordinary_scan.hpp"
+#include "harness/core/subject/type_engine.hpp"
+
+namespace ulpgate {
+
+template <NativeReal Real, NativeBits W, Stage S>
+class NativeStage {
+ public:
+  static constexpr Stage id = S;
+
+  NativeStage(FunctionId f, BoundedFunction<W> function) : id_(f), function_(function) {}
+  [[nodiscard]] bool exists() const { return function_ != nullptr; }
+
+  // Evaluates the points of `args`, count * arity values.
+  void load(std::span<const Real> args, std::size_t count) {
+    args_.resize(args.size());
+    results_.resize(count);
+    bounds_.resize(count);
+    std::copy(args.begin(), args.end(), args_.begin());
+    function_(args_.data(), results_.data(), bounds_.data(), count, std::numeric_limits<Real>::digits);
+  }
+
+  // The loaded points, of one argument each, for scan_ordinary.
+  [[nodiscard]] ScanInput scan_input(std::span<const float> args, std::span<const float> results,
+                                     std::uint64_t first_index, double largest_error) const
+      requires(std::same_as<Real, float>&& std::same_as<W, double>) {
+    return {args.data(), results.data(), results_.data(), bounds_.data(),
+            args.size(), first_index,    largest_error,   inexact_results(id_)};
+  }
+
+  [[nodiscard]] long double value(std::size_t i) const { return static_cast<long double>(results_[i]); }
+
+  // What is known of `got`, the result at point i of the loaded ones, whose arguments are `args`; false where
+  // the stage has no say: special results, results at the ends of the range, refused arguments.
+  [[nodiscard]] bool find(std::size_t i, const Real* args, Real got, Finding& finding) const {
+    using L = std::numeric_limits<Real>;
+    constexpr int p = L::digits;
+    constexpr int least_grid = L::min_exponent - 1;
+    constexpr int least_exponent = gradual ? least_grid - 200 : -900;
+    constexpr int greatest_exponent = std::min(L::max_exponent - 1, 900);
+    const W value = results_[i];
+    const NumberBits bits = bits_of(value);
+    const NumberBits got_bits = bits_of(got);
+    const double bound = bounds_[i];
+    if (bound >= 0 && (got == 0 || !std::isfinite(got))) {
+      // A zero without error.
+      finding = finding_of({});
+      if (bound == 0 && got == 0 && value == 0 && std::signbit(got) == signbit_of(value)) return true;
+      return find_special(args, bits, value, bound, got, finding);
+    }
+    if (!(bound >= 0) || !bits.normal || !(got_bits.normal || gradual) || bits.exponent < least_exponent ||
+        bits.exponent > greatest_exponent || may_overflow(bits, value) ||
+        std::abs(got_bits.exponent - bits.exponent) > 50 || (got < 0) != (value < 0)) {
+      return false;
+    }
+    const int grid = gradual ? std::max(bits.exponent, least_grid) : bits.exponent;
+    const int got_grid = gradual ? std::max(got_bits.exponent, least_grid) : got_bits.exponent;
+    const W difference = static_cast<W>(got) - value;
+    const auto rounded = static_cast<double>(difference);
+    // Of two neighbouring numbers the difference is exact (Sterbenz), and it may be a double.
+    const bool neighbours =
+        got_bits.normal && bits.exponent >= least_grid && std::abs(got_bits.exponent - bits.exponent) <= 1;
+    const bool exact = bound == 0 && static_cast<W>(rounded) == difference && (neighbours || difference == 0);
+    const double error = std::fabs(rounded) * power_of_two(p - 1 - grid);
+    const double slack = exact ? 0 : bound * unit + error * 0x1p-48;
+    double least = error - slack;
+    double greatest = error + slack;
+    // Next to a power of two the exact value may lie in the other binade, where the spacing is half or
+    // double.
+    const bool next_to_power = !exact && may_cross_power(bits, value, slack);
+    if (next_to_power) {
+      if (bits.fraction == 0) {
+        greatest = 2 * (error + 2 * slack);
+        least = error - 2 * slack;
+      } else {
+        least = (error - 2 * slack) / 2;
+        greatest = error + 2 * slack;
+      }
+    }
+    if (least <= 0 && !exact) {
+      // Too close to tell: exact or not is known by other means.
+      const Exactness exactness = bound == 0 ? Exactness::unknown : exactness_of(id_, args, got);
+      if (exactness == Exactness::unknown) return false;
+      least = smallest_error;
+      if (exactness == Exactness::exact) least = greatest = 0;
+    }
+    finding = {Outcome::finite, least, greatest, 0, true, true};
+    if (greatest < 0.5) return true;
+    if (least > 0.5) {
+      finding.correctly_rounded = false;
+    } else if (exact && least == 0.5) {
+      finding.correctly_rounded = !got_bits.odd;
+    } else {
+      return false;
+    }
+    set_distance(finding, got_grid == grid && !next_to_power);
+    return true;
+  }
+
+ private:
+  // Below its least normal number float has one spacing; that of the wider types is too small for a double.
+  static constexpr bool gradual = std::numeric_limits<Real>::min_exponent > -800;
+  // Where the exponent of a value says that it overflows: bounds are below 2^20 ulp of W, which is little
+  // next to the half ulp of float that lies between its largest number and this power of two.
+  static constexpr int least_overflow =
+      std::numeric_limits<Real>::max_exponent + (std::same_as<Real, float> ? 0 : 1);
+
+  // Whether the value is so close to the end of the range, or beyond, that it may be rounded to infinity.
+  [[nodiscard]] static bool may_overflow(const NumberBits& bits, W value) {
+    using L = std::numeric_limits<Real>;
+    if (bits.exponent < L::max_exponent - 1) return false;
+    const W size = value < 0 ? -value : value;
+    return !(size < static_cast<W>(L::max()));
+  }
+
+  // Whether there is a power of two within twice `slack`, in ULP of Real, of the value.
+  [[nodiscard]] static bool may_cross_power(const NumberBits& bits, W value, double slack) {
+    // 32 bits say whether to look closer: bounds are below 2^20 ulp of W, which has 52 bits behind the first.
+    const bool above = bits.fraction == 0;
+    if (!above && bits.fraction != 0xffffffffU) return false;
+    const W size = value < 0 ? -value : value;
+    const auto power = static_cast<W>(power_of_two(above ? bits.exponent : bits.exponent + 1));
+    const auto gap = static_cast<double>(above ? size - power : power - size);
+    return gap * power_of_two(std::numeric_limits<Real>::digits - 1 - bits.exponent) <= 2 * slack;
+  }
+
+  [[nodiscard]] static bool signbit_of(W value) { return std::signbit(static_cast<double>(value)); }
+
+  // Results of 0, infinity and NaN: the two agree, or the exact value lies beyond what Real has, for float up
+  // to the last rounding.  Where they differ, and closer to the ends, the stage has no say.
+  [[nodiscard]] bool find_special(const Real* args, const NumberBits& bits, W value, double bound, Real got,
+                                  Finding& finding) const {
+    using L = std::numeric_limits<Real>;
+    if (std::isnan(got) || value != value) {
+      if (!std::isnan(got) || value == value) return false;
+      finding = finding_of({});
+      return true;
+    }
+    if (std::signbit(got) != signbit_of(value)) return false;
+    if (got != 0) {
+      // A pole, or beyond the range by more than the bound.  Where W has the exponents of Real its infinity
+      // says too little.
+      const bool infinite = value - value != 0;
+      if (infinite ? std::same_as<Real, long double> : !bits.normal || bits.exponent < least_overflow)
+        return false;
+      finding = finding_of({});
+      return true;
+    }
+    // |value| < 2^(exponent + 1), in units of the least subnormal.
+    const int size = bits.exponent + 1 - (L::min_exponent - L::digits);
+    if (size > (gradual ? 0 : -20)) return false;
+    if (gradual && size > -20) {
+      const double error = std::fabs(static_cast<double>(value)) * power_of_two(L::digits - L::min_exponent);
+      const double slack = error * (bound * power_of_two(1 - significand_bits<W>) + 0x1p-48);
+      finding = {Outcome::finite, error - slack, error + slack, 0, true, true};
+      return finding.greatest < 0.5;
+    }
+    // A zero of W may be an exact one.
+    if (!bits.normal && !(is_never_zero(id_) && std::isfinite(args[0]))) return false;
+    const double greatest = power_of_two(std::max(size, -900) + 1);
+    finding = {Outcome::finite, smallest_error, greatest, 0, true, true};
+    return true;
+  }
+
+  // One ulp of W in ulp of Real, with a margin.
+  static constexpr double unit =
+      power_of_two(std::numeric_limits<Real>::digits - significand_bits<W>) * (1 + 0x1p-20);
+
+  // On one grid the correctly rounded value is the nearest number of steps away; across a power of two the
+  // steps have two sizes.
+  static void set_distance(Finding& f, bool one_grid) {
+    const double low = std::floor(f.least + 0.5);
+    const double high = std::floor(f.greatest + 0.5);
+    if (one_grid && low == high && f.least != low - 0.5) {
+      f.distance = low;
+    } else if (one_grid && f.least == 0.5 && f.greatest == 0.5) {
+      f.distance = f.correctly_rounded ? 0 : 1;
+    } else {
+      f.distance = 2 * f.greatest + 2;
+      f.distance_known = false;
+    }
+  }
+
+  FunctionId id_;
+  BoundedFunction<W> function_;
+  std::vector<W> args_;
+  std::vector<W> results_;
+  std::vector<double> bounds_;
+};
+
+}  // namespace ulpgate

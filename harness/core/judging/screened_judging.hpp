@@ -1,0 +1,298 @@
+// ScreenedJudging<Real>: cheap references with proven bounds first; what a stage cannot settle climbs to the
+// next, at the end to the full reference, and a fixed share is always checked against it.
+#pragma once
+
+#include <cstring>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "harness/core/judging/judging.hpp"
+#include "harness/core/judging/native_stage.hpp"
+#include "harness/core/judging/reference_disagreement.hpp"
+#include "reference/text/text.hpp"
+
+namespace ulpgate {
+
+// The stages before the full reference; tests plant wrong ones.
+struct ScreenStages {
+  BoundedFunction<double> binary64 = nullptr;
+  BoundedFunction<long double> x87_extended = nullptr;
+#ifdef ULPGATE_HAVE_FLOAT128
+  BoundedFunction<Binary128> binary128 = nullptr;
+#endif
+  ExactFunction mpfr = exact_value;
+};
+
+// The stages of f: functions of native types where they have trusted bounds.
+[[nodiscard]] inline ScreenStages screen_stages(const FunctionInfo& f) {
+  ScreenStages stages;
+  if (f.function_class != FunctionClass::real) return stages;
+  stages.binary64 = bounded_function<double>(f.id);
+  if constexpr (std::numeric_limits<long double>::digits == 64)
+    stages.x87_extended = bounded_function<long double>(f.id);
+#ifdef ULPGATE_HAVE_FLOAT128
+  stages.binary128 = bounded_function<Binary128>(f.id);
+#endif
+  return stages;
+}
+
+// One object per unit of work.
+template <RealType Real>
+class ScreenedJudging {
+ public:
+  // The MPFR stage is within one ulp of its own precision of the exact value (oracle.hpp).
+  static constexpr long stage_bits = std::numeric_limits<Real>::digits + 32;
+  static constexpr std::uint64_t check_stride = 1024;
+  // Of the checked samples most go to the full reference at once, these through all stages, so that those
+  // which are rarely reached are held to their bounds as well.
+  static constexpr std::uint64_t deep_check_stride = 16 * check_stride;
+
+  explicit ScreenedJudging(const FunctionInfo& f) : ScreenedJudging(f, screen_stages(f)) {}
+  ScreenedJudging(const FunctionInfo& f, const ScreenStages& stages)
+      : parts_(static_cast<std::size_t>(f.parts)),
+        natives_(native_stages(f.id, stages)),
+        stage_(f, stage_bits, stages.mpfr),
+        full_(f) {}
+
+  // Throws ReferenceDisagreement.
+  void judge(const Batch<Real>& batch, RowTally<Real>& tally) {
+    checks_.clear();
+    spared_.clear();
+    pending_.resize(batch.count());
+    if (!may_scan(batch)) std::iota(pending_.begin(), pending_.end(), std::size_t{0});
+    std::apply([&](auto&... stages) { (judge_natively(stages, batch, tally), ...); }, natives_);
+    // What the full reference finds spares the samples behind it from being a maximum.
+    for (const std::size_t i : pending_) {
+      if (!judge_by_mpfr(batch, i, tally)) judge_in_full(batch, i, tally);
+    }
+    for (const std::size_t i : spared_) judge_in_full(batch, i, tally);
+  }
+
+  // Samples that each stage decided so far.
+  [[nodiscard]] const std::array<std::uint64_t, stage_count>& decided() const { return decided_; }
+
+ private:
+  using ScanningStage = NativeStage<float, double, Stage::binary64>;
+
+  // What a stage would have decided of a sample that goes to the full reference in any case.
+  struct Check {
+    std::size_t i;
+    Stage stage;
+    std::array<Finding, max_parts> findings;
+  };
+
+  static auto x87_stage([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
+    if constexpr (NativeBits<long double>) {
+      return std::tuple(NativeStage<Real, long double, Stage::x87_extended>(f, s.x87_extended));
+    } else {
+      return std::tuple();
+    }
+  }
+  static auto binary128_stage([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
+#ifdef ULPGATE_HAVE_FLOAT128
+    return std::tuple(NativeStage<Real, Binary128, Stage::binary128>(f, s.binary128));
+#else
+    return std::tuple();
+#endif
+  }
+  static auto native_stages([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
+    if constexpr (std::same_as<Real, float>) {
+      return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
+                            x87_stage(f, s), binary128_stage(f, s));
+    } else if constexpr (std::same_as<Real, double>) {
+      return std::tuple_cat(x87_stage(f, s), binary128_stage(f, s));
+    } else if constexpr (std::same_as<Real, long double> && NativeBits<long double>) {
+      return binary128_stage(f, s);
+    } else {
+      return std::tuple();
+    }
+  }
+
+  [[nodiscard]] bool is_checked(const Batch<Real>& batch, std::size_t i) const {
+    return (batch.first_index + i) % check_stride == 0;
+  }
+
+  [[nodiscard]] bool is_checked_by_all(const Batch<Real>& batch, std::size_t i) const {
+    return (batch.first_index + i) % deep_check_stride == 0;
+  }
+
+  // Whether a whole batch is scanned first, which leaves in pending_ what is left over.
+  [[nodiscard]] bool may_scan(const Batch<Real>& batch) const {
+    if constexpr (std::same_as<Real, float>)
+      return std::get<0>(natives_).exists() && batch.function.arity == 1;
+    return false;
+  }
+
+  template <class Native>
+  void judge_natively(Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
+    if (!native.exists() || pending_.empty()) return;
+    const auto arity = static_cast<std::size_t>(batch.function.arity);
+    const bool whole = pending_.size() == batch.count();
+    if (whole) {
+      native.load(batch.args, batch.count());
+      if constexpr (std::same_as<Native, ScanningStage>) {
+        if (may_scan(batch)) settle_ordinary(native, batch, tally);
+      }
+    } else {
+      gathered_.clear();
+      for (const std::size_t i : pending_)
+        gathered_.insert(gathered_.end(), batch.args_of(i), batch.args_of(i) + arity);
+      native.load(gathered_, pending_.size());
+    }
+    std::size_t left = 0;
+    for (std::size_t p = 0; p < pending_.size(); ++p) {
+      const std::size_t i = pending_[p];
+      const std::size_t n = whole ? i : p;
+      Finding finding;
+      if (batch.threw[i] == 0 && native.find(n, batch.args_of(i), batch.result_of(i, 0), finding)) {
+        const long double value = native.value(n);
+        if (is_checked(batch, i)) {
+          checks_.push_back({i, Native::id, {finding, {}}});
+          if (!is_checked_by_all(batch, i)) {
+            spared_.push_back(i);
+            continue;
+          }
+        } else if (tally.settle({&finding, 1}, batch.first_index + i, batch.args_of(i), {&value, 1})) {
+          ++decided_[static_cast<std::size_t>(Native::id)];
+          continue;
+        }
+      }
+      pending_[left++] = i;
+    }
+    pending_.resize(left);
+  }
+
+  // The ordinary ones of a whole batch of points of one argument, many at a time.
+  void settle_ordinary(const ScanningStage& native, const Batch<float>& batch, RowTally<float>& tally) {
+    verdicts_.resize(batch.count());
+    scan_ordinary(native.scan_input(batch.args, batch.results, batch.first_index, tally.largest_error()),
+                  verdicts_.data());
+    const std::uint64_t past_check = batch.first_index % check_stride;
+    for (std::size_t i = past_check == 0 ? 0 : check_stride - past_check; i < batch.count();
+         i += check_stride)
+      verdicts_[i] = verdict::unsettled;
+    tally.count_scanned(verdicts_, batch.first_index);
+    std::size_t left = 0;
+    std::size_t i = 0;
+    const auto look = [&](std::size_t last) {
+      for (; i < last; ++i) {
+        pending_[left] = i;
+        left += verdicts_[i] == verdict::unsettled ? 1U : 0U;
+      }
+    };
+    while (i + 8 <= batch.count()) {
+      // No other verdict has the first bit of a byte.
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, &verdicts_[i], sizeof eight);
+      if ((eight & 0x8080808080808080U) == 0) {
+        i += 8;
+      } else {
+        look(i + 8);
+      }
+    }
+    look(batch.count());
+    pending_.resize(left);
+    decided_[static_cast<std::size_t>(Stage::binary64)] += batch.count() - left;
+  }
+
+  // True where the sample is done with.
+  bool judge_by_mpfr(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
+    std::array<Finding, max_parts> findings;
+    std::array<long double, max_parts> values{};
+    if (batch.threw[i] != 0) return false;
+    stage_.load(batch, i);
+    for (std::size_t part = 0; part < parts_; ++part) {
+      values[part] = stage_.value(part);
+      if (!find(stage_.got(batch, i, part), part, findings[part])) return false;
+    }
+    if (is_checked(batch, i)) {
+      checks_.push_back({i, Stage::mpfr, findings});
+      return false;
+    }
+    if (!tally.settle(findings, batch.first_index + i, batch.args_of(i), values)) return false;
+    ++decided_[static_cast<std::size_t>(Stage::mpfr)];
+    return true;
+  }
+
+  // The error in ULP is monotone on either side of the result: the ends of the interval around the stage's
+  // value bound it.
+  bool find(mpfr_srcptr got, std::size_t part, Finding& finding) {
+    mpfr_ptr value = stage_.exact(part);
+    const Exactness exactness = stage_.exactness(part);
+    if (exactness == Exactness::exact || mpfr_nan_p(value)) {
+      finding = finding_of(stage_.judge(got, value));
+      return true;
+    }
+    // An inexact zero or infinity has left even MPFR's range.
+    if (!mpfr_regular_p(value)) return false;
+    mpfr_set_prec(upper_, mpfr_get_prec(value));
+    mpfr_set(upper_, value, MPFR_RNDN);
+    const bool equal = is_rounded(exactness) && mpfr_equal_p(got, value) != 0;
+    if (exactness != Exactness::rounded_up) mpfr_nextabove(upper_);
+    if (exactness != Exactness::rounded_down) mpfr_nextbelow(value);
+    Judgement a = stage_.judge(got, value);
+    Judgement b = stage_.judge(got, upper_);
+    if (a.outcome != b.outcome) return false;
+    finding = finding_of(a);
+    if (a.outcome != Outcome::finite) return true;
+    if (a.correctly_rounded != b.correctly_rounded) return false;
+    // Within the interval the error may be anything down to an exact zero, unless that is known not to be.
+    const bool inside = mpfr_lessequal_p(value, got) && mpfr_lessequal_p(got, upper_);
+    if (inside && !equal) return false;
+    // At a power of two the spacing jumps, and the error with it.
+    const mpfr_exp_t low = mpfr_get_exp(static_cast<mpfr_srcptr>(value));
+    const mpfr_exp_t high = mpfr_get_exp(upper_.get());
+    const bool jump = low != high;
+    const bool one_side = exactness == Exactness::rounded_up || exactness == Exactness::rounded_down;
+    // The interval ends there, or all of it would lie on both sides; the end takes the spacing of the inside.
+    const bool at_end = jump && one_side && spacing_jumps_at<Real>(std::max(low, high) - 1);
+    if (at_end) (low > high ? a : b).error.value *= 2;
+    constexpr double margin = 0x1p-50;
+    finding.least = equal ? smallest_error : std::min(a.error, b.error).value * (1 - margin);
+    finding.greatest = std::max(a.error, b.error).value * (1 + margin);
+    if (jump && !at_end) {
+      if (!equal) finding.least /= 2;
+      finding.greatest *= 2;
+    }
+    finding.distance = std::max(a.distance, b.distance);
+    finding.distance_known = a.distance == b.distance;
+    return true;
+  }
+
+  void judge_in_full(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
+    full_.load(batch, i);
+    for (const Check& check : checks_) {
+      if (check.i != i) continue;
+      for (std::size_t part = 0; part < parts_; ++part) {
+        if (!check.findings[part].allows(full_.judgement(batch, i, part))) disagree(check, batch, part);
+      }
+    }
+    full_.settle(batch, i, tally);
+    ++decided_[static_cast<std::size_t>(Stage::full)];
+  }
+
+  [[noreturn]] static void disagree(const Check& check, const Batch<Real>& batch, std::size_t part) {
+    std::string text = "the screened reference (" + std::string(name_of(check.stage)) +
+                       ") disagrees with the full one in part " + std::to_string(part) + " of " +
+                       std::string(batch.function.name) + " at";
+    for (std::size_t j = 0; j < static_cast<std::size_t>(batch.function.arity); ++j)
+      text += " " + to_hexfloat(batch.args_of(check.i)[j]);
+    throw ReferenceDisagreement(text);
+  }
+
+  std::size_t parts_;
+  decltype(native_stages(FunctionId{}, ScreenStages{})) natives_;
+  PointJudge<Real> stage_;
+  FullJudging<Real> full_;
+  MpfrValue upper_;
+  std::vector<std::size_t> pending_;
+  std::vector<Real> gathered_;
+  std::vector<std::uint8_t> verdicts_;  // of the batch's samples, by a scan
+  std::vector<Check> checks_;
+  std::vector<std::size_t> spared_;  // checked samples on their way past the other stages
+  std::array<std::uint64_t, stage_count> decided_{};
+};
+
+}  // namespace ulpgate

@@ -1,0 +1,193 @@
+// Tests of the screened reference: the records of the full one, and a lying stage is found.
+#include "harness/core/judging/screened_judging.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/core/records/recorded_figures.hpp"
+#include "harness/core/subject/type_engine.hpp"
+#include "kernels/math/function_table.hpp"
+
+namespace ulpgate {
+namespace {
+
+TEST(ScreenedJudging, GivesTheRecordsOfTheFullReference) {
+  for (const auto& engine : all_engines()) {
+    for (const auto& f : all_functions()) {
+      const ArgumentList edges = edge_arguments(f, engine->descriptor().format);
+      for (const StratumSource& source :
+           {StratumSource{Stratum::uniform, 7, 40, nullptr}, StratumSource{Stratum::binades, 7, 20, nullptr},
+            StratumSource{Stratum::edges, 7, std::min<std::uint64_t>(edges.size(), 100), &edges}}) {
+        RowHint hint(f.parts);
+        RowHint other_hint(f.parts);
+        const auto full = engine->evaluate(f, source, 0, source.count, ReferenceMode::full, hint);
+        const auto screened =
+            engine->evaluate(f, source, 0, source.count, ReferenceMode::screened, other_hint);
+        for (std::size_t part = 0; part < full.size(); ++part) {
+          EXPECT_EQ(recorded_figures(full[part]), recorded_figures(screened[part]))
+              << f.name << " part " << part << " " << engine->descriptor().token << " "
+              << name_of(source.stratum);
+        }
+      }
+    }
+  }
+}
+
+// Four in five points have an erf that is -1 or 1 to more bits than the MPFR stage has: their tiny errors tie
+// for the maximum until a preview has found a larger one.
+TEST(ScreenedJudging, APlateauOfTinyErrorsDoesNotClimb) {
+  const TypeEngine* engine = find_engine("mpfr62");
+  if (engine == nullptr) GTEST_SKIP() << "no mpfr62 in this build";
+  const FunctionInfo& erf = info_of(FunctionId::erf);
+  const StratumSource source{Stratum::stratified, 1, 2000, nullptr};
+  RowHint hint(1);
+  static_cast<void>(engine->evaluate(erf, source, 0, source.count, ReferenceMode::screened, hint));
+  EXPECT_GE(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 1950U);
+}
+
+// Off by a thousand units of its own precision, and told as exact, so that the lie decides.
+ExactParts lying_mpfr(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out) {
+  exact_value(f, args, out);
+  for (int step = 0; step < 1000; ++step) mpfr_nextabove(out[0]);
+  return {Exactness::exact, Exactness::exact};
+}
+
+// Off by 2^-16 of the value, with a bound of half an ulp.
+template <class W>
+void lying_exp(const W* args, W* results, double* bounds, std::size_t count, int argument_bits) {
+  bounded_function<W>(FunctionId::exp)(args, results, bounds, count, argument_bits);
+  for (std::size_t i = 0; i < count; ++i) {
+    results[i] += results[i] / 65536;
+    bounds[i] = 0.5;
+  }
+}
+
+// Judges exp(0.5) as the point with this index.
+template <class Real>
+void judge_exp(const ScreenStages& stages, std::uint64_t index) {
+  const FunctionInfo& exp = info_of(FunctionId::exp);
+  const Real x = 0.5;
+  const Real y = std::exp(x);
+  const std::uint8_t threw = 0;
+  RowHint hint(1);
+  RowTally<Real> tally(exp, hint);
+  ScreenedJudging<Real> judging(exp, stages);
+  judging.judge({exp, {&x, 1}, {&y, 1}, {&threw, 1}, index}, tally);
+}
+
+template <class Real>
+void expect_named(const ScreenStages& stages, std::string_view stage,
+                  std::uint64_t checked = ScreenedJudging<Real>::deep_check_stride) {
+  // Index 1 is not among the checked: there the lie passes, whatever it decides.
+  EXPECT_NO_THROW(judge_exp<Real>(stages, 1)) << stage;
+  try {
+    judge_exp<Real>(stages, checked);
+    FAIL() << "the checked share must find the lie of " << stage;
+  } catch (const ReferenceDisagreement& e) {
+    EXPECT_NE(std::string(e.what()).find(stage), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("exp at 0x1p-1"), std::string::npos) << e.what();
+  }
+}
+
+TEST(ScreenedJudging, ALyingStageIsFoundAndTheArgumentNamed) {
+  const FunctionInfo& exp = info_of(FunctionId::exp);
+  EXPECT_NO_THROW(judge_exp<double>(screen_stages(exp), 0)) << "the stages as they are";
+  ScreenStages stages = screen_stages(exp);
+  stages.mpfr = lying_mpfr;
+  expect_named<double>(stages, "mpfr");
+  stages = screen_stages(exp);
+  stages.binary64 = lying_exp<double>;
+  expect_named<float>(stages, "binary64");
+  // Every checked sample holds the first stage that says anything of it to its bound.
+  expect_named<float>(stages, "binary64", ScreenedJudging<float>::check_stride);
+  if constexpr (NativeBits<long double>) {
+    stages = screen_stages(exp);
+    stages.x87_extended = lying_exp<long double>;
+    expect_named<double>(stages, "x87_extended");
+    expect_named<double>(stages, "x87_extended", ScreenedJudging<double>::check_stride);
+  }
+#ifdef ULPGATE_HAVE_FLOAT128
+  stages = screen_stages(exp);
+  stages.binary128 = lying_exp<Binary128>;
+  expect_named<double>(stages, "binary128");
+  expect_named<long double>(stages, "binary128");
+#endif
+}
+
+TEST(ScreenedJudging, CheapStagesDecideNearlyEverySample) {
+  const TypeEngine& engine = *find_engine("double");
+  RowHint hint(1);
+  const auto summaries = engine.evaluate(info_of(FunctionId::exp), {Stratum::uniform, 1, 20000, nullptr}, 0,
+                                         20000, ReferenceMode::screened, hint);
+  std::uint64_t all = 0;
+  for (const auto& n : hint.decided) all += n;
+  EXPECT_EQ(all, 20000U);
+  EXPECT_EQ(summaries[0].samples, 20000U);
+#ifdef ULPGATE_HAVE_FLOAT128
+  if constexpr (NativeBits<long double>) {
+    EXPECT_GT(hint.decided[static_cast<std::size_t>(Stage::x87_extended)], 17000U);
+    EXPECT_LT(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 200U);
+  }
+#endif
+}
+
+// Where results leave float's range the double stage says what becomes of them: exact values down to half of
+// the least subnormal and up to the largest number, and beyond.
+TEST(ScreenedJudging, FloatNextToTheEndsOfItsRangeNeedsNoMpfr) {
+  struct Case {
+    FunctionId id;
+    float low, high;
+  };
+  const FunctionTable<float>& functions = function_table<float>();
+  constexpr std::size_t count = 2000;
+  for (const auto& [id, low, high] : {
+           Case{FunctionId::erfc, 9, 11},
+           Case{FunctionId::tgamma, -43.9F, -38.1F},
+           Case{FunctionId::tgamma, 34, 36},
+           Case{FunctionId::tgamma, 0x1p-129F, 0x1p-126F},
+           Case{FunctionId::lgamma, 0x1p119F, 0x1p123F},
+           Case{FunctionId::exp, 87, 90},
+           Case{FunctionId::exp, -105, -86},
+           Case{FunctionId::sinh, -91, -87},
+       }) {
+    const FunctionInfo& f = info_of(id);
+    std::vector<float> args(count);
+    std::vector<float> results(count);
+    std::vector<std::uint8_t> threw(count);
+    for (std::size_t i = 0; i < count; ++i)
+      args[i] = low + (high - low) * (static_cast<float>(i) / static_cast<float>(count));
+    functions[static_cast<std::size_t>(id)](args.data(), results.data(), threw.data(), count);
+    const Batch<float> batch{f, args, results, threw, 1};
+    RowHint hint(1);
+    RowTally<float> full_tally(f, hint);
+    FullJudging<float>(f).judge(batch, full_tally);
+    RowTally<float> tally(f, hint);
+    ScreenedJudging<float> judging(f);
+    judging.judge(batch, tally);
+    EXPECT_EQ(recorded_figures(tally.take()[0]), recorded_figures(full_tally.take()[0])) << f.name;
+    EXPECT_LT(judging.decided()[static_cast<std::size_t>(Stage::mpfr)], count / 100) << f.name << " " << low;
+  }
+}
+
+TEST(RecordedError, IsRoundedUpToFortyBits) {
+  struct Case {
+    double error;
+    double want;
+    const char* why;
+  };
+  for (const auto& [error, want, why] : {
+           Case{0, 0, "an exact result stays exact"},
+           Case{0.5, 0.5, "half a ULP is a multiple"},
+           Case{1e-30, 0x1p-40, "no error looks exact"},
+           Case{0.5 + 0x1p-50, 0.5 + 0x1p-40, "up, never down"},
+           Case{0x1p60, 0x1p60, "powers of two stay"},
+           Case{0x1p60 + 0x1p10, 0x1p60 + 0x1p21, "forty bits of a large error"},
+           Case{HUGE_VAL, HUGE_VAL, "infinity stays"},
+       }) {
+    EXPECT_EQ(recorded({error}).value, want) << why;
+  }
+}
+
+}  // namespace
+}  // namespace ulpgate

@@ -1,0 +1,249 @@
+// KernelEngineOf<Real>: the implementation of KernelEngine, instantiated in one translation unit per type.
+#pragma once
+
+#include <cmath>
+
+#include "harness/core/kernels/kernel_engine.hpp"
+#include "harness/core/kernels/kernel_states.hpp"
+#include "kernels/dem/table/kernel_table.hpp"
+#include "reference/text/text.hpp"
+#include "reference/types/descriptor.hpp"
+
+namespace ulpgate {
+
+template <RealType Real>
+class KernelEngineOf final : public KernelEngine {
+ public:
+  using Reference = RealHP<4, Real>;
+
+  KernelEngineOf(RealDescriptor descriptor, dem::KernelTable<Real> kernels,
+                 const dem::KernelTable<Reference>& reference)
+      : descriptor_(std::move(descriptor)), kernels_(std::move(kernels)), reference_(reference) {}
+
+  [[nodiscard]] const RealDescriptor& descriptor() const override { return descriptor_; }
+
+  [[nodiscard]] std::vector<Summary> evaluate(const dem::KernelInfo& kernel, const StateSource& source,
+                                              std::uint64_t first, std::uint64_t last,
+                                              RowHint& hint) const override {
+    const States<Real> states(kernel, source);
+    Evaluation e(*this, kernel);
+    std::vector<Summary> summaries(kernel.outputs.size());
+    for (std::uint64_t k = first; k < last; ++k) {
+      states.make(k, e.inputs.data());
+      e.run();
+      for (std::size_t q = 0; q < summaries.size(); ++q) {
+        Judgement judgement = e.judge(q);
+        judgement.error = recorded(judgement.error);
+        summaries[q].add(judgement, k);
+        if (judgement.outcome != Outcome::finite) continue;
+        const double error = recorded({e.normwise_error(q)}).value;
+        summaries[q].normwise.add(error, k);
+        // A result that is right to a rounding cannot be unstable; a smaller error cannot raise the quotient.
+        auto& seen = hint.error_over_condition[q];
+        if (error <= 1 || error < seen.load(std::memory_order_relaxed)) continue;
+        const double condition = e.condition(q);
+        double ratio = condition > 1 ? error / condition : error;
+        if (ratio != ratio) ratio = 0;  // infinite error at infinite condition says nothing
+        summaries[q].max_error_over_condition = std::max(summaries[q].max_error_over_condition, ratio);
+        double best = seen.load(std::memory_order_relaxed);
+        while (ratio > best && !seen.compare_exchange_weak(best, ratio, std::memory_order_relaxed)) {
+        }
+      }
+    }
+    return summaries;
+  }
+
+  [[nodiscard]] KernelPoint point(const dem::KernelInfo& kernel, const StateSource& source,
+                                  std::uint64_t k) const override {
+    Evaluation e(*this, kernel);
+    States<Real>(kernel, source).make(k, e.inputs.data());
+    return describe(e);
+  }
+  [[nodiscard]] KernelPoint point(const dem::KernelInfo& kernel,
+                                  const std::vector<MpfrValue>& inputs) const override {
+    Evaluation e(*this, kernel);
+    for (std::size_t i = 0; i < inputs.size(); ++i) e.inputs[i] = from_mpfr<Real>(inputs[i]);
+    return describe(e);
+  }
+
+  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(const dem::KernelInfo& kernel,
+                                                        std::size_t count) const override {
+    return std::make_unique<Timed>(kernel, kernels_[static_cast<std::size_t>(kernel.id)], count);
+  }
+
+ private:
+  class Timed final : public TimedBatch {
+   public:
+    Timed(const dem::KernelInfo& kernel, dem::BatchKernel<Real> evaluate, std::size_t count)
+        : evaluate_(evaluate),
+          inputs_(count * kernel.input_components()),
+          results_(count * kernel.output_components()),
+          threw_(count) {
+      const States<Real> states(kernel, {StateStratum::typical, 1, count});
+      for (std::size_t i = 0; i < count; ++i) states.make(i, &inputs_[i * kernel.input_components()]);
+    }
+    void run(std::size_t count) override { evaluate_(inputs_.data(), results_.data(), threw_.data(), count); }
+
+   private:
+    dem::BatchKernel<Real> evaluate_;
+    std::vector<Real> inputs_;
+    std::vector<Real> results_;
+    std::vector<std::uint8_t> threw_;
+  };
+
+  // One kernel in one state: inputs, results and reference, with buffers that are used again for the next
+  // state.
+  struct Evaluation {
+    Evaluation(const KernelEngineOf& engine, const dem::KernelInfo& info)
+        : kernel(info),
+          inputs(info.input_components()),
+          results(info.output_components()),
+          exact(info.output_components()),
+          engine_(engine),
+          wide_(info.input_components()),
+          shifted_(info.input_components()),
+          moved_(info.output_components()),
+          got_(std::numeric_limits<Real>::digits),
+          true_(std::numeric_limits<Reference>::digits) {
+      std::size_t at = 0;
+      for (const auto& q : info.outputs) {
+        first_.push_back(at);
+        at += q.components;
+      }
+    }
+
+    void run() {
+      threw_ = 0;
+      const auto id = static_cast<std::size_t>(kernel.id);
+      engine_.kernels_[id](inputs.data(), results.data(), &threw_, 1);
+      for (std::size_t i = 0; i < inputs.size(); ++i) wide_[i] = widen<Reference>(inputs[i]);
+      std::uint8_t reference_threw = 0;
+      engine_.reference_[id](wide_.data(), exact.data(), &reference_threw, 1);
+      if (reference_threw != 0) threw_ = 1;
+    }
+
+    // The worst component: a mismatch, or else the largest error.
+    Judgement judge(std::size_t q) {
+      if (threw_ != 0) return {Outcome::exception, {}, 0, false};
+      Judgement worst;
+      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
+        const Judgement j = judge_component(i);
+        if (j.outcome != Outcome::finite) return j;
+        worst.correctly_rounded = worst.correctly_rounded && j.correctly_rounded;
+        worst.distance = std::max(worst.distance, j.distance);
+        worst.error = std::max(worst.error, j.error);
+      }
+      return worst;
+    }
+
+    // |got - exact| / |exact| in units of 2^-p; 0 where both are 0, infinite where only the exact one is.
+    double normwise_error(std::size_t q) {
+      Reference difference2(0);
+      Reference norm2(0);
+      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
+        const Reference d = widen<Reference>(results[i]) - exact[i];
+        difference2 += d * d;
+        norm2 += exact[i] * exact[i];
+      }
+      return scaled_root(difference2, norm2, std::numeric_limits<Real>::digits);
+    }
+
+    double condition(std::size_t q) {
+      using std::ldexp;
+      constexpr int step_exponent = 5 - std::numeric_limits<Real>::digits;
+      const auto id = static_cast<std::size_t>(kernel.id);
+      Reference norm2(0);
+      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
+        norm2 += exact[i] * exact[i];
+      }
+      double sum = 0;
+      shifted_ = wide_;
+      for (std::size_t j = 0; j < wide_.size(); ++j) {
+        if (wide_[j] == 0) continue;
+        double largest = 0;
+        for (const int direction : {1, -1}) {
+          shifted_[j] = wide_[j] + ldexp(Reference(direction * wide_[j]), step_exponent);
+          std::uint8_t threw = 0;
+          engine_.reference_[id](shifted_.data(), moved_.data(), &threw, 1);
+          if (threw != 0) return std::numeric_limits<double>::infinity();
+          Reference change2(0);
+          for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
+            const Reference d = moved_[i] - exact[i];
+            change2 += d * d;
+          }
+          largest = std::max(largest, scaled_root(change2, norm2, -step_exponent));
+        }
+        shifted_[j] = wide_[j];
+        sum += largest;
+      }
+      return sum;
+    }
+
+    const dem::KernelInfo& kernel;
+    std::vector<Real> inputs;
+    std::vector<Real> results;
+    std::vector<Reference> exact;
+
+   private:
+    Judgement judge_component(std::size_t i) {
+      to_mpfr(got_.get(), results[i]);
+      to_mpfr(true_.get(), exact[i]);
+      Judgement j = ulpgate::judge(got_, true_, descriptor_format());
+      // The sign of a zero moves nothing; a value that cancels to zero is a large error, not a lost exponent.
+      if (j.outcome == Outcome::zero_sign) return {};
+      if (j.outcome == Outcome::underflow_spurious) {
+        j = {Outcome::finite, ulp_error(got_, true_, descriptor_format()), 0, false};
+        round_to_format(true_, descriptor_format());
+        j.distance = float_distance(got_, true_, descriptor_format());
+      }
+      return j;
+    }
+
+    static constexpr FloatFormat descriptor_format() { return float_format<Real>(); }
+
+    // sqrt(a/b) 2^exponent as a double.
+    static double scaled_root(const Reference& a, const Reference& b, int exponent) {
+      using std::ldexp;
+      using std::sqrt;
+      if (a == 0) return 0;
+      if (b == 0) return std::numeric_limits<double>::infinity();
+      return static_cast<double>(Reference(ldexp(Reference(sqrt(Reference(a / b))), exponent)));
+    }
+
+    const KernelEngineOf& engine_;
+    std::vector<Reference> wide_;
+    std::vector<Reference> shifted_;
+    std::vector<Reference> moved_;
+    std::vector<std::size_t> first_;
+    MpfrValue got_;
+    MpfrValue true_;
+    std::uint8_t threw_ = 0;
+
+    friend class KernelEngineOf;
+  };
+
+  [[nodiscard]] static KernelPoint describe(Evaluation& e) {
+    e.run();
+    KernelPoint p;
+    for (const auto& x : e.inputs) p.inputs_hex.push_back(to_hexfloat(x));
+    for (std::size_t q = 0; q < e.kernel.outputs.size(); ++q) {
+      QuantityPoint& point = p.quantities.emplace_back();
+      point.judgement = e.judge(q);
+      if (e.threw_ != 0) continue;
+      point.normwise_error = e.normwise_error(q);
+      point.condition = e.condition(q);
+      for (std::size_t i = e.first_[q]; i < e.first_[q] + e.kernel.outputs[q].components; ++i) {
+        point.got_hex.push_back(to_hexfloat(e.results[i]));
+        to_mpfr(e.true_.get(), e.exact[i]);
+        point.exact_decimal.push_back(to_decimal(e.true_.get(), 30));
+      }
+    }
+    return p;
+  }
+
+  RealDescriptor descriptor_;
+  dem::KernelTable<Real> kernels_;
+  const dem::KernelTable<Reference>& reference_;
+};
+
+}  // namespace ulpgate

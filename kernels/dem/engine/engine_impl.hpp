@@ -1,0 +1,199 @@
+// TypedEngine<Real>: DemEngine over a Simulation<Real>; included only by the one translation unit of each
+// type.
+#pragma once
+
+#include "kernels/dem/engine/engine.hpp"
+#include "kernels/dem/formulas/critical_step.hpp"
+#include "kernels/dem/step/simulation.hpp"
+
+namespace ulpgate::dem {
+
+template <RealType Real>
+class TypedEngine final : public DemEngine {
+ public:
+  TypedEngine(std::string type_name, const scenes::Scene& scene, const EngineOptions& options)
+      : type_name_(std::move(type_name)), simulation_(scene, {options.all_parts, options.threads}) {}
+
+  [[nodiscard]] std::string type_name() const override { return type_name_; }
+  void step(std::uint64_t count) override { simulation_.step(count); }
+  void set_threads(int threads) override { simulation_.set_threads(threads); }
+  void set_flow(const std::vector<FlowText>& flow) override {
+    std::vector<FlowPart<Real>> parts;
+    for (const auto& part : flow) parts.push_back({part.kick, parse_real<Real>(part.fraction)});
+    simulation_.set_flow(std::move(parts));
+  }
+  [[nodiscard]] std::uint64_t iteration() const override { return s().iteration; }
+  [[nodiscard]] double time_s() const override {
+    return static_cast<double>(s().iteration) * static_cast<double>(s().dt);
+  }
+
+  [[nodiscard]] std::size_t bodies() const override { return s().bodies.size(); }
+  [[nodiscard]] scenes::Shape shape(std::size_t body) const override { return s().bodies.shape[body]; }
+  [[nodiscard]] bool is_fixed(std::size_t body) const override { return s().bodies.fixed[body] != 0; }
+  [[nodiscard]] std::vector<BodyPair> contacts() const override { return simulation_.touching_pairs(); }
+
+  [[nodiscard]] double approximate(BodyQuantity q, std::size_t body, std::size_t c) const override {
+    return static_cast<double>(value(q, body, c));
+  }
+  [[nodiscard]] std::string text(BodyQuantity q, std::size_t body, std::size_t c) const override {
+    return to_hexfloat(value(q, body, c));
+  }
+  void exact(BodyQuantity q, std::size_t body, std::size_t c, mpfr_ptr out) const override {
+    to_mpfr(out, value(q, body, c));
+  }
+  [[nodiscard]] double radius(std::size_t body) const override {
+    return static_cast<double>(s().bodies.radius[body]);
+  }
+  [[nodiscard]] double mass(std::size_t body) const override {
+    return static_cast<double>(s().bodies.mass[body]);
+  }
+  [[nodiscard]] std::string mass_text(std::size_t body) const override {
+    return to_hexfloat(s().bodies.mass[body]);
+  }
+  [[nodiscard]] std::vector<std::array<double, 3>> corners(std::size_t body) const override {
+    std::vector<std::array<double, 3>> list;
+    if (s().bodies.shape[body] != Shape::facet) return list;
+    const auto& f = s().flats[static_cast<std::size_t>(s().bodies.flat[body])].facet;
+    for (const auto* p : {&f.a, &f.b, &f.c}) {
+      list.push_back({static_cast<double>(p->x), static_cast<double>(p->y), static_cast<double>(p->z)});
+    }
+    return list;
+  }
+  [[nodiscard]] std::vector<std::string> contact_constants(BodyPair pair) const override {
+    const Contacts<Real>& c = s().contacts;
+    const auto found = std::lower_bound(c.pair.begin(), c.pair.end(), pair);
+    if (found == c.pair.end() || *found != pair) return {};
+    const auto p = static_cast<std::size_t>(found - c.pair.begin());
+    const auto get = [&](const std::vector<Real>& array) {
+      return to_hexfloat(array.empty() ? Real(0) : array[p]);
+    };
+    return {get(c.kn), get(c.ks), get(c.cn), get(c.cs)};
+  }
+
+  [[nodiscard]] std::vector<std::string> energy_names() const override {
+    if (!s().parts.energy) return {};
+    return {"kinetic", "rotational", "elastic", "potential", "friction",
+            "damping", "viscous",    "broken",  "work",      "sum"};
+  }
+  [[nodiscard]] double energy(std::string_view name) const override {
+    return static_cast<double>(energy_value(name));
+  }
+  void energy_exact(std::string_view name, mpfr_ptr out) const override { to_mpfr(out, energy_value(name)); }
+
+  [[nodiscard]] double kinetic_energy() const override { return static_cast<double>(kinetic_sum()); }
+  void kinetic_energy_exact(mpfr_ptr out) const override { to_mpfr(out, kinetic_sum()); }
+
+  [[nodiscard]] double critical_step(std::string_view name) const override {
+    if (name == "stiffness") return static_cast<double>(stiffness_limit());
+    const Bodies<Real>& b = s().bodies;
+    Real least{0};
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (b.shape[i] != Shape::sphere) continue;
+      const auto& m = s().materials[static_cast<std::size_t>(b.material[i])];
+      const Real step = name == "p_wave"
+                            ? p_wave_step(b.radius[i], m.density, m.elastic.young)
+                            : rayleigh_step(b.radius[i], m.density, m.elastic.young, m.elastic.poisson);
+      if (least == 0 || step < least) least = step;
+    }
+    return static_cast<double>(least);
+  }
+
+  [[nodiscard]] const Parts& explain() const override { return simulation_.parts(); }
+  [[nodiscard]] std::size_t memory_bytes() const override { return simulation_.memory(); }
+  [[nodiscard]] std::size_t collider_rebuilds() const override { return simulation_.rebuilds(); }
+  [[nodiscard]] std::string save() override { return simulation_.save(); }
+  void restore(std::string_view state, Constants constants) override {
+    simulation_.restore(state, constants == Constants::from_text);
+  }
+
+ private:
+  [[nodiscard]] const SimulationState<Real>& s() const { return simulation_.state(); }
+
+  [[nodiscard]] Real value(BodyQuantity q, std::size_t body, std::size_t c) const {
+    const Bodies<Real>& b = s().bodies;
+    switch (q) {
+      case BodyQuantity::position:
+        return b.position[body][c];
+      case BodyQuantity::velocity:
+        return b.velocity[body][c];
+      case BodyQuantity::angular_velocity:
+        return s().parts.rotation ? b.angular_velocity[body][c] : Real(0);
+      case BodyQuantity::orientation:
+        break;
+    }
+    const Quaternion<Real> o = s().parts.orientation ? b.orientation[body] : Quaternion<Real>{};
+    return c == 0 ? o.w : c == 1 ? o.x : c == 2 ? o.y : o.z;
+  }
+
+  [[nodiscard]] Real energy_value(std::string_view name) const {
+    const Energies<Real>& e = s().energies;
+    if (name == "kinetic") return e.kinetic;
+    if (name == "rotational") return e.rotational;
+    if (name == "elastic") return e.elastic;
+    if (name == "potential") return e.potential;
+    if (name == "friction") return e.friction;
+    if (name == "damping") return e.damping;
+    if (name == "viscous") return e.viscous;
+    if (name == "broken") return e.broken;
+    if (name == "work") return e.work;
+    return e.sum();
+  }
+
+  [[nodiscard]] Real kinetic_sum() const {
+    const Bodies<Real>& b = s().bodies;
+    Real sum{0};
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (b.fixed[i] != 0) continue;
+      sum += dem::kinetic_energy(b.mass[i], b.velocity[i]);
+      if (s().parts.rotation) sum += rotational_energy(b.inertia[i], b.angular_velocity[i]);
+    }
+    return sum;
+  }
+
+  // From the touching contacts; 0 where none limits the step.
+  [[nodiscard]] Real stiffness_limit() const {
+    const Bodies<Real>& b = s().bodies;
+    const Contacts<Real>& c = s().contacts;
+    std::vector<Vec3<Real>> k(b.size());
+    std::vector<Vec3<Real>> k_rotation(b.size());
+    for (std::size_t p = 0; p < c.size(); ++p) {
+      if (c.touching[p] == 0) continue;
+      const auto i = static_cast<std::size_t>(c.pair[p].first);
+      const auto j = static_cast<std::size_t>(c.pair[p].second);
+      const Real ks = s().parts.shear ? c.ks[p] : Real(0);
+      Vec3<Real> n = b.position[j] - b.position[i];
+      if (s().parts.shear) {
+        n = c.normal[p];
+      } else {
+        n = n / norm(n);
+      }
+      const Vec3<Real> share = axis_stiffness(c.kn[p], ks, n);
+      for (const std::size_t body : {i, j}) {
+        k[body] += share;
+        if (s().parts.rotation) k_rotation[body] += axis_rotation_stiffness(ks, b.radius[body], n);
+      }
+    }
+    Real least{0};
+    const auto take = [&](const Real& step) {
+      if (step > 0 && (least == 0 || step < least)) least = step;
+    };
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (b.fixed[i] != 0) continue;
+      take(stiffness_step(b.mass[i], k[i]));
+      if (s().parts.rotation) take(stiffness_step(b.inertia[i], k_rotation[i]));
+    }
+    return least;
+  }
+
+  std::string type_name_;
+  Simulation<Real> simulation_;
+};
+
+// Makes an engine of one type; specialised in no place, instantiated in one.
+template <RealType Real>
+[[nodiscard]] std::unique_ptr<DemEngine> make_typed_engine(const char* type_name, const scenes::Scene& scene,
+                                                           const EngineOptions& options) {
+  return std::make_unique<TypedEngine<Real>>(type_name, scene, options);
+}
+
+}  // namespace ulpgate::dem

@@ -1,0 +1,129 @@
+// Geometry of a sphere against flat bodies: facet (triangle), wall (axis-aligned plane) and oriented box.
+//
+// In all of them body 1 is the flat body and body 2 the sphere: the normal points from the nearest point to
+// the centre.
+#pragma once
+
+#include "kernels/dem/formulas/sphere_geometry.hpp"
+
+namespace ulpgate::dem {
+
+template <RealType Real>
+struct Facet {
+  Vec3<Real> a, b, c;  // vertices, m
+};
+
+// The point of a triangle nearest to p, by the Voronoi regions of vertices, edges and face.
+// C. Ericson, Real-Time Collision Detection (2005), section 5.1.5.
+template <RealType Real>
+[[nodiscard]] Vec3<Real> nearest_on_facet(const Facet<Real>& t, const Vec3<Real>& p) {
+  const Vec3<Real> ab = t.b - t.a;
+  const Vec3<Real> ac = t.c - t.a;
+  const Vec3<Real> ap = p - t.a;
+  const Real d1 = dot(ab, ap);
+  const Real d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return t.a;
+  const Vec3<Real> bp = p - t.b;
+  const Real d3 = dot(ab, bp);
+  const Real d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return t.b;
+  const Real vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return t.a + (d1 / (d1 - d3)) * ab;
+  const Vec3<Real> cp = p - t.c;
+  const Real d5 = dot(ab, cp);
+  const Real d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return t.c;
+  const Real vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return t.a + (d2 / (d2 - d6)) * ac;
+  const Real va = d3 * d6 - d5 * d4;
+  const Real along_bc = d4 - d3;
+  const Real against_bc = d5 - d6;
+  if (va <= 0 && along_bc >= 0 && against_bc >= 0) {
+    return t.b + (along_bc / (along_bc + against_bc)) * (t.c - t.b);
+  }
+  // The face: subtract the part of ap along the unit normal, which keeps the distance well conditioned.
+  const Vec3<Real> across = cross(ab, ac);
+  const Vec3<Real> n = across / norm(across);
+  return p - dot(n, ap) * n;
+}
+
+// From the nearest point of the flat body; `away` is the normal to take where the centre lies on that point.
+template <RealType Real>
+[[nodiscard]] ContactGeometry<Real> from_nearest(const Vec3<Real>& nearest, const Vec3<Real>& x,
+                                                 const Real& r, const Vec3<Real>& away) {
+  const Vec3<Real> d = x - nearest;
+  const Real distance = norm(d);
+  const Vec3<Real> normal = distance == 0 ? away : d / distance;
+  const Real overlap = r - distance;
+  return {overlap, normal, x - (r - overlap / 2) * normal};
+}
+
+// A face contact takes the triangle's own normal (on the sphere's side), so it does not tilt by rounding.
+template <RealType Real>
+[[nodiscard]] ContactGeometry<Real> facet_sphere(const Facet<Real>& t, const Vec3<Real>& x, const Real& r) {
+  using std::abs;
+  const Vec3<Real> across = cross(t.b - t.a, t.c - t.a);
+  const Vec3<Real> n = across / norm(across);
+  const Real height = dot(n, x - t.a);
+  const Vec3<Real> foot = x - height * n;
+  // Inside, when the foot is left of every edge seen from the normal.
+  const bool inside = dot(cross(t.b - t.a, foot - t.a), n) >= 0 &&
+                      dot(cross(t.c - t.b, foot - t.b), n) >= 0 && dot(cross(t.a - t.c, foot - t.c), n) >= 0;
+  if (!inside) return from_nearest(nearest_on_facet(t, x), x, r, n);
+  const Vec3<Real> normal = height < 0 ? -n : n;
+  const Real overlap = r - abs(height);
+  return {overlap, normal, x - (r - overlap / 2) * normal};
+}
+
+// The infinite plane {coordinate `axis` = position}; the normal points to the sphere's side.
+template <RealType Real>
+[[nodiscard]] ContactGeometry<Real> wall_sphere(std::size_t axis, const Real& position, const Vec3<Real>& x,
+                                                const Real& r) {
+  using std::abs;
+  const Real height = x[axis] - position;
+  Vec3<Real> normal;
+  normal[axis] = height < 0 ? Real(-1) : Real(1);
+  const Real overlap = r - abs(height);
+  return {overlap, normal, x - (r - overlap / 2) * normal};
+}
+
+// A box of centre c, half sizes h (m) and orientation q.  A centre inside the box leaves through the nearest
+// face.
+template <RealType Real>
+[[nodiscard]] ContactGeometry<Real> box_sphere(const Vec3<Real>& c, const Vec3<Real>& h,
+                                               const Quaternion<Real>& q, const Vec3<Real>& x,
+                                               const Real& r) {
+  using std::abs;
+  const Vec3<Real> local = rotate(conjugate(q), x - c);
+  Vec3<Real> nearest = local;
+  bool inside = true;
+  std::size_t face = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (local[i] > h[i]) nearest[i] = h[i];
+    if (local[i] < -h[i]) nearest[i] = -h[i];
+    inside = inside && abs(local[i]) <= h[i];
+    if (h[i] - abs(local[i]) < h[face] - abs(local[face])) face = i;
+  }
+  if (!inside) {
+    const Vec3<Real> d = local - nearest;
+    const Real distance = norm(d);
+    const Vec3<Real> normal = rotate(q, d / distance);
+    const Real overlap = r - distance;
+    return {overlap, normal, x - (r - overlap / 2) * normal};
+  }
+  Vec3<Real> n;
+  n[face] = local[face] < 0 ? Real(-1) : Real(1);
+  const Vec3<Real> normal = rotate(q, n);
+  const Real overlap = r + (h[face] - abs(local[face]));
+  return {overlap, normal, x - (r - overlap / 2) * normal};
+}
+
+// Velocity of body 2 relative to body 1 (m/s) where both surfaces meet, arms c = contact point - centre.
+template <RealType Real>
+[[nodiscard]] Vec3<Real> point_relative_velocity(const Vec3<Real>& arm1, const Vec3<Real>& arm2,
+                                                 const Vec3<Real>& v1, const Vec3<Real>& v2,
+                                                 const Vec3<Real>& w1, const Vec3<Real>& w2) {
+  return (v2 + cross(w2, arm2)) - (v1 + cross(w1, arm1));
+}
+
+}  // namespace ulpgate::dem

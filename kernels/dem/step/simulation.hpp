@@ -1,0 +1,161 @@
+// Simulation<Real>: the DEM step over a scene, with the parts that the scene needs, on any number of threads.
+//
+// Order of a step: forces := 0; collider; contacts in the order of their bodies' numbers: geometry, physics
+// of new ones, law; integration.  A body's force is the sum over its contacts in that order whatever the
+// number of threads.
+#pragma once
+
+#include "kernels/dem/step/bond_step.hpp"
+#include "kernels/dem/step/collider.hpp"
+#include "kernels/dem/step/contact_pass.hpp"
+#include "kernels/dem/step/integrate.hpp"
+#include "kernels/dem/step/load_scene.hpp"
+
+namespace ulpgate::dem {
+
+struct SimulationOptions {
+  bool all_parts = false;  // nothing is left out; the trajectory is the same to the last bit
+  int threads = 1;
+};
+
+template <RealType Real>
+class Simulation {
+ public:
+  Simulation(const scenes::Scene& scene, const SimulationOptions& options)
+      : s_(load_scene<Real>(scene, options.all_parts)) {
+    set_threads(options.threads);
+  }
+
+  // Takes `count` steps.
+  void step(std::uint64_t count) {
+    if (s_.parts.bonds_alone() && !s_.parts.moments && !collider_.started()) {
+      run_bonds_alone(s_, count, flow_);
+      return;
+    }
+    for (std::uint64_t i = 0; i < count; ++i) step_once();
+  }
+
+  // Kicks and drifts of a composition method instead of the leapfrog.  Throws std::invalid_argument where the
+  // scene is more than bonds and gravity.
+  void set_flow(std::vector<FlowPart<Real>> flow) {
+    if (!s_.parts.bonds_alone() || s_.parts.moments || !account_forgets(s_)) {
+      throw std::invalid_argument(
+          "only the leapfrog integrates this scene: others need unbreakable bonds alone, at rest or free, "
+          "without damping, shear, rotation and moments, and no --all-parts");
+    }
+    flow_ = std::move(flow);
+  }
+
+  void set_threads(int threads) {
+    threads_ = std::max(1, threads);
+    collider_.restart();
+  }
+
+  [[nodiscard]] const SimulationState<Real>& state() const { return s_; }
+  [[nodiscard]] std::size_t rebuilds() const { return collider_.rebuilds(); }
+  [[nodiscard]] const Parts& parts() const { return s_.parts; }
+  // Pairs of bodies that exert a force on each other, sorted.
+  [[nodiscard]] std::vector<BodyPair> touching_pairs() const {
+    std::vector<BodyPair> pairs;
+    for (std::size_t p = 0; p < s_.contacts.size(); ++p) {
+      if (s_.contacts.touching[p] != 0) pairs.push_back(s_.contacts.pair[p]);
+    }
+    return pairs;
+  }
+
+  // The whole state as exact text; restoring it, also into a higher precision, continues with the same bits.
+  [[nodiscard]] std::string save() {
+    ArchiveWriter<Real> archive;
+    visit_state(archive, s_);
+    return std::move(archive).text();
+  }
+  // Throws ArchiveError where `text` is not a state of this scene.  The state is then unspecified.
+  void restore(std::string_view text, bool take_constants) {
+    ArchiveReader<Real> archive(text, take_constants);
+    visit_state(archive, s_);
+    if (!archive.at_end()) throw ArchiveError("text is left over behind the state");
+    collider_.restart();
+  }
+
+  // Bytes of the arrays of the state.
+  [[nodiscard]] std::size_t memory() const {
+    return memory_of(s_) + collider_.memory() + slots_.capacity() * sizeof(PairForce<Real>);
+  }
+
+ private:
+  void step_once() {
+    collider_.update(s_, threads_ > 1);
+    const ContactPass<Real> pass = contact_pass_of(s_, collider_.coarse());
+    if (s_.parts.energy) clear_losses(s_.contacts);
+    if (threads_ > 1) {
+      contacts_threaded(pass);
+    } else {
+      contacts_serial(pass);
+    }
+    const bool moved = integrate(s_, threads_, collider_);
+    if (moved) collider_.outdate();
+    ++s_.iteration;
+  }
+
+  void contacts_serial(const ContactPass<Real>& pass) {
+    Bodies<Real>& b = s_.bodies;
+    PairForce<Real> f;
+    const std::size_t count = s_.contacts.size();
+    for (std::size_t p = 0; p < count; ++p) {
+      if (!pass.evaluate(p, f)) continue;
+      const auto i1 = static_cast<std::size_t>(f.first);
+      const auto i2 = static_cast<std::size_t>(f.second);
+      b.force[i1] -= f.force;
+      b.force[i2] += f.force;
+      if (s_.parts.rotation) {
+        b.torque[i1] += f.torque1;
+        b.torque[i2] += f.torque2;
+      }
+    }
+  }
+
+  // Every pair writes its own slot, then every body sums its slots in the order of the pairs: the serial
+  // order.
+  void contacts_threaded(const ContactPass<Real>& pass) {
+    const auto count = static_cast<std::int64_t>(s_.contacts.size());
+    if (slots_.size() < s_.contacts.size()) {
+      slots_.resize(s_.contacts.size());
+      active_.resize(s_.contacts.size());
+    }
+    Bodies<Real>& b = s_.bodies;
+    const auto bodies = static_cast<std::int64_t>(b.size());
+#pragma omp parallel num_threads(threads_)
+    {
+#pragma omp for schedule(dynamic, 1024)
+      for (std::int64_t k = 0; k < count; ++k) {
+        const auto p = static_cast<std::size_t>(k);
+        active_[p] = pass.evaluate(p, slots_[p]) ? 1 : 0;
+      }
+#pragma omp for schedule(dynamic, 512)
+      for (std::int64_t k = 0; k < bodies; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        for (const std::int32_t entry : collider_.pairs_of(i)) {
+          const auto p = static_cast<std::size_t>(entry);
+          if (active_[p] == 0) continue;
+          const PairForce<Real>& f = slots_[p];
+          const bool is_first = f.first == static_cast<std::int32_t>(i);
+          if (is_first) {
+            b.force[i] -= f.force;
+          } else {
+            b.force[i] += f.force;
+          }
+          if (s_.parts.rotation) b.torque[i] += is_first ? f.torque1 : f.torque2;
+        }
+      }
+    }
+  }
+
+  SimulationState<Real> s_;
+  Collider<Real> collider_;
+  int threads_ = 1;
+  std::vector<FlowPart<Real>> flow_;
+  std::vector<PairForce<Real>> slots_;
+  std::vector<std::uint8_t> active_;
+};
+
+}  // namespace ulpgate::dem

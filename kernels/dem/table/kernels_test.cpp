@@ -1,0 +1,191 @@
+// Tests of the DEM kernels: known closed values and the table's coverage.
+#include <gtest/gtest.h>
+
+#include "kernels/dem/table/kernel_table_impl.hpp"
+
+namespace ulpgate::dem {
+namespace {
+
+using V = Vec3<double>;
+
+TEST(SphereSphere, KnownValues) {
+  struct Case {
+    V x1;
+    double r1;
+    V x2;
+    double r2, overlap;
+    V normal, point;
+    const char* why;
+  };
+  const Case cases[] = {
+      {{0, 0, 0}, 1, {1.5, 0, 0}, 1, 0.5, {1, 0, 0}, {0.75, 0, 0}, "equal spheres: point half way"},
+      {{0, 0, 0},
+       2,
+       {0, 2.5, 0},
+       1,
+       0.5,
+       {0, 1, 0},
+       {0, 1.75, 0},
+       "the point lies in the middle of the overlap"},
+      {{0, 0, 0}, 1, {0, 0, -2}, 1, 0, {0, 0, -1}, {0, 0, -1}, "touching exactly"},
+      {{0, 0, 0}, 1, {3, 4, 0}, 1, -3, {0.6, 0.8, 0}, {1.5, 2, 0}, "apart: negative overlap"},
+  };
+  for (const Case& c : cases) {
+    const auto g = sphere_sphere(c.x1, c.r1, c.x2, c.r2);
+    EXPECT_DOUBLE_EQ(g.overlap, c.overlap) << c.why;
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_DOUBLE_EQ(g.normal[i], c.normal[i]) << c.why;
+      EXPECT_DOUBLE_EQ(g.point[i], c.point[i]) << c.why;
+    }
+  }
+}
+
+TEST(FlatGeometry, FaceEdgeVertex) {
+  struct Case {
+    V x;
+    double overlap;
+    V normal;
+    const char* why;
+  };
+  const Facet<double> t{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const Case cases[] = {
+      {{0.25, 0.25, 0.5}, 0.5, {0, 0, 1}, "above the face"},
+      {{0.25, 0.25, -0.5}, 0.5, {0, 0, -1}, "below the face: the normal is on the sphere's side"},
+      {{0.5, -0.6, 0.8}, 0, {0, -0.6, 0.8}, "nearest to the edge ab"},
+      {{-0.6, 0.5, 0}, 0.4, {-1, 0, 0}, "nearest to the edge ca, in the plane"},
+      {{1.6, 0, 0.8}, 0, {0.6, 0, 0.8}, "nearest to the vertex b"},
+      {{-0.3, 0, 0.4}, 0.5, {-0.6, 0, 0.8}, "nearest to the vertex a"},
+      {{0, 1.3, 0.4}, 0.5, {0, 0.6, 0.8}, "nearest to the vertex c"},
+  };
+  for (const Case& c : cases) {
+    const auto g = facet_sphere(t, c.x, 1.0);
+    EXPECT_NEAR(g.overlap, c.overlap, 1e-15) << c.why;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(g.normal[i], c.normal[i], 1e-15) << c.why;
+  }
+  // The hypotenuse, by symmetry.
+  EXPECT_NEAR(facet_sphere(t, V{1, 1, 0}, 1.0).overlap, 1 - std::sqrt(0.5), 1e-15);
+}
+
+TEST(FlatGeometry, WallAndBox) {
+  EXPECT_EQ(wall_sphere(1, 0.0, V{7, 0.75, 3}, 1.0).overlap, 0.25);
+  EXPECT_EQ(wall_sphere(1, 0.0, V{7, -0.75, 3}, 1.0).normal.y, -1);
+  const Quaternion<double> q;
+  EXPECT_EQ(box_sphere(V{}, V{1, 1, 1}, q, V{1.5, 0, 0}, 1.0).overlap, 0.5) << "face";
+  EXPECT_NEAR(box_sphere(V{}, V{1, 1, 1}, q, V{1.6, 1.8, 0}, 1.0).overlap, 0, 1e-15) << "edge";
+  EXPECT_EQ(box_sphere(V{}, V{1, 1, 1}, q, V{0.75, 0, 0}, 1.0).overlap, 1.25) << "centre inside";
+  const auto turned_box = from_angle_axis(std::acos(-1.0) / 4, V{0, 0, 1});
+  EXPECT_NEAR(box_sphere(V{}, V{1, 1, 1}, turned_box, V{2, 0, 0}, 1.0).overlap, std::sqrt(2) - 1, 1e-15)
+      << "turned";
+}
+
+TEST(Shear, RotationFollowsTheNormalToFirstOrder) {
+  const double angle = 1e-5;
+  const V s = rotate_shear(V{0, 1, 0}, V{1, 0, 0}, V{std::cos(angle), std::sin(angle), 0}, V{}, V{}, 1.0);
+  EXPECT_NEAR(s.x, -std::sin(angle), 1e-14);
+  EXPECT_NEAR(s.y, std::cos(angle), 1e-9);
+  // Both bodies spin about the normal: the shear turns with them.
+  const V spun = rotate_shear(V{0, 1, 0}, V{1, 0, 0}, V{1, 0, 0}, V{2, 0, 0}, V{2, 0, 0}, 1e-6);
+  EXPECT_NEAR(spun.z, 2e-6, 1e-15);
+}
+
+TEST(Shear, Cone) {
+  const auto inside = cut_to_cone(V{0, 3, 4}, 5.0, 2.0);
+  EXPECT_FALSE(inside.sliding) << "exactly on the cone sticks";
+  const auto cut = cut_to_cone(V{0, 6, 8}, 5.0, 2.0);
+  EXPECT_TRUE(cut.sliding);
+  EXPECT_DOUBLE_EQ(cut.shear.y, 3);
+  EXPECT_DOUBLE_EQ(cut.dissipation, 12.5) << "slip 5/2 m times 5 N";
+  EXPECT_EQ(cut_to_cone(V{0, 6, 8}, 0.0, 2.0).shear, V{}) << "no limit, no shear";
+}
+
+TEST(Shear, TwistAndBending) {
+  const Quaternion<double> unit;
+  const auto q2 = from_angle_axis(0.5, V{1, 0, 0});
+  const auto twisted = twist_and_bending(unit, unit, unit, q2, V{1, 0, 0});
+  EXPECT_NEAR(twisted.twist, 0.5, 1e-15);
+  EXPECT_NEAR(norm(twisted.bending), 0, 1e-15);
+  const auto bent = twist_and_bending(unit, unit, unit, q2, V{0, 1, 0});
+  EXPECT_NEAR(bent.bending.x, 0.5, 1e-15);
+  const double pi = std::acos(-1.0);
+  const auto over = twist_and_bending(unit, unit, unit, from_angle_axis(1.5 * pi, V{0, 0, 1}), V{0, 0, 1});
+  EXPECT_NEAR(over.twist, -pi / 2, 1e-15) << "angles lie on (-pi, pi]";
+}
+
+TEST(Physics, DepositionConstantsToAllPrintedDigits) {
+  const double r = 0.5 / 30.77;
+  const double m = sphere_mass(r, 2300.0);
+  EXPECT_NEAR(m, 0.04133747731443931, 2e-17);
+  const Collision<double> c{1e-3, 3e-3, 3e-3, 35 * std::acos(-1.0) / 180};
+  const auto p = viscoelastic_physics(c, reduced_mass(m, m));
+  EXPECT_NEAR(p.kn, 901482.4695, 5e-5);
+  EXPECT_NEAR(p.ks, 257566.4199, 5e-5);
+  EXPECT_NEAR(p.cn, 240.1353166, 5e-8);
+  EXPECT_NEAR(p.cs, 68.61009045, 5e-9);
+}
+
+TEST(Physics, PendulumRodHas100NewtonPerMetre) {
+  const Elastic<double> rod{1e5, 0, 0};
+  EXPECT_EQ(frictional_physics(rod, 0.1 / 100, rod, 0.1 / 100).kn, 100);
+  EXPECT_EQ(frictional_physics(rod, 0.1 / 100, rod, 0.1 / 100).ks, 0);
+  // A stiffness stands in for young * radius: in float the product of four factors misses 100 by two ulp.
+  const Elastic<float> product{1e5F, 0, 0};
+  const Elastic<float> given{1e5F, 0, 0, 100};
+  const Elastic<float> sheared{1, 0.25F, 0, 100};
+  EXPECT_EQ(frictional_physics(product, 0.1F / 100, product, 0.1F / 100).kn, 0x1.900004p+6F);
+  EXPECT_EQ(frictional_physics(given, 0.1F / 100, given, 0.1F / 100).kn, 100);
+  EXPECT_EQ(frictional_physics(given, 0.1F / 100, product, 1e-3F).kn, 100);
+  EXPECT_EQ(frictional_physics(sheared, 3.F, sheared, 7.F).ks, 25);
+}
+
+TEST(Physics, HertzOfEqualBodies) {
+  // E* = E/(2 (1 - nu^2)), R = r/2: Fn = 4/3 E* sqrt(R) u^(3/2).
+  const Elastic<double> m{1e9, 0.25, 0};
+  const double e_star = 1e9 / (2 * (1 - 0.0625));
+  EXPECT_NEAR(hertz_mindlin_physics(m, 0.02, m, 0.02).kn / (4.0 / 3 * e_star * std::sqrt(0.01)), 1, 1e-15);
+  // Mindlin: kt = 8 G* sqrt(R u), G* = G/(2 (2 - nu)).
+  const double g_star = 1e9 / (2 * 1.25) / (2 * 1.75);
+  EXPECT_NEAR(hertz_mindlin_physics(m, 0.02, m, 0.02).ks / (8 * g_star * std::sqrt(0.01)), 1, 1e-15);
+}
+
+TEST(Newton, DampingWeakensWhatSpeedsUp) {
+  EXPECT_EQ(damped(2.0, 1.0, 0.1, 0.25), 1.5) << "speeding up";
+  EXPECT_EQ(damped(2.0, -1.0, 0.1, 0.25), 2.5) << "slowing down";
+  EXPECT_EQ(damped(0.0, 1.0, 0.1, 0.25), 0.0);
+  EXPECT_EQ(damped(2.0, -0.1, 0.1, 0.25), 2.0) << "at rest half a step on: sgn(0) = 0";
+}
+
+TEST(Newton, FreeAsphericalBodyKeepsMomentumAndEnergy) {
+  AsphericalState<double> s{{}, {1, 0.1, 2}, {}};
+  const V inertia{1, 2, 3};
+  double energy = 0;
+  for (int i = 0; i < 10000; ++i) {
+    s = turned_aspherical(s, inertia, V{}, 1e-4);
+    const V w = divided(rotate(conjugate(s.orientation), s.angular_momentum), inertia);
+    const double now = rotational_energy(inertia, w);
+    if (i == 0) energy = now;
+    ASSERT_NEAR(now, energy, 1e-8);
+  }
+  EXPECT_EQ(s.angular_momentum, (V{1, 0.1, 2}));
+}
+
+TEST(CriticalStep, ClosedValues) {
+  EXPECT_DOUBLE_EQ(p_wave_step(0.01, 2500.0, 1e8), 5e-5);
+  // nu = 0: G = E/2, fit 0.8766.
+  EXPECT_DOUBLE_EQ(rayleigh_step(0.01, 2500.0, 2e8, 0.0),
+                   std::acos(-1.0) * 0.01 * std::sqrt(2500 / 1e8) / 0.8766);
+  EXPECT_DOUBLE_EQ(stiffness_step(2.0, V{1, 4, 3}), 0.8 * std::sqrt(2.0) * std::sqrt(0.5));
+  EXPECT_EQ(stiffness_step(2.0, V{}), 0) << "no stiffness, no limit";
+}
+
+TEST(KernelTable, EveryRowHasInputsOutputsAndAnEvaluator) {
+  EXPECT_EQ(kernel_table<double>().size(), all_kernels().size());
+  for (const KernelInfo& k : all_kernels()) {
+    EXPECT_EQ(find_kernel(k.name), &k);
+    EXPECT_GT(k.input_components(), 0U) << k.name;
+    EXPECT_GT(k.output_components(), 0U) << k.name;
+  }
+  EXPECT_EQ(find_kernel("nothing"), nullptr);
+}
+
+}  // namespace
+}  // namespace ulpgate::dem

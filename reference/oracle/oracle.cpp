@@ -1,0 +1,295 @@
+// The MPFR oracle: dispatch of every row of functions.def to MPFR, MPC or a series of ours.
+#include "reference/oracle/oracle.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "reference/oracle/oracle_complex.hpp"
+#include "reference/oracle/oracle_erf.hpp"
+#include "reference/oracle/oracle_gamma.hpp"
+#include "reference/oracle/oracle_special.hpp"
+
+namespace ulpgate {
+
+namespace {
+
+constexpr auto nearest = MPFR_RNDN;
+
+// logb as C99 7.12.6.11 defines it: the exponent of the binade, -inf for 0, +inf for infinities.
+int exact_logb(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t rounding) {
+  if (mpfr_nan_p(x)) {
+    mpfr_set_nan(out);
+  } else if (mpfr_inf_p(x)) {
+    mpfr_set_inf(out, 1);
+  } else if (mpfr_zero_p(x)) {
+    mpfr_set_inf(out, -1);
+  } else {
+    return mpfr_set_si(out, static_cast<long>(mpfr_get_exp(x)) - 1, rounding);
+  }
+  return 0;
+}
+
+int exact_erf(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
+  return oracle::error_function(out, x);
+}
+
+int exact_erfc(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
+  return oracle::complementary_error_function(out, x);
+}
+
+int exact_gamma(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
+  return oracle::gamma(out, x);
+}
+
+int exact_log_gamma(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
+  return oracle::log_gamma(out, x);
+}
+
+struct ComplexOut {
+  explicit ComplexOut(std::span<MpfrValue> out) : value(mpfr_get_prec(out[0])), parts(out) {}
+  ComplexOut(const ComplexOut&) = delete;
+  ComplexOut& operator=(const ComplexOut&) = delete;
+  ~ComplexOut() {
+    mpfr_swap(parts[0], mpc_realref(static_cast<mpc_ptr>(value)));
+    mpfr_swap(parts[1], mpc_imagref(static_cast<mpc_ptr>(value)));
+  }
+  MpcValue value;
+  std::span<MpfrValue> parts;
+};
+
+// A complex argument that borrows two real ones: MPC reads its operands only, so their limbs need no copy.
+struct ComplexArgument {
+  ComplexArgument(mpfr_srcptr re, mpfr_srcptr im) {
+    *mpc_realref(value) = *re;
+    *mpc_imagref(value) = *im;
+  }
+  mpc_t value;
+};
+
+// What our compositions say of their parts.
+constexpr ExactParts not_known = {Exactness::unknown, Exactness::unknown};
+
+// Transcendental parts.  Of z = x + iy with numbers x, y that are not 0:
+// - the parts of sin, cos, sinh, cosh, exp and polar are sums of exponentials of distinct algebraic numbers,
+//   none of them 0, with algebraic coefficients; by Lindemann and Weierstrass no such sum is algebraic.  A
+//   part of tan or tanh that were an algebraic number would make one such sum 0;
+// - the parts of the inverse functions are half-angles and logarithms of algebraic numbers, and not 0 (see
+//   the formulas in oracle_complex.cpp): transcendental by the same theorem.
+constexpr ExactParts transcendental = {Exactness::rounded, Exactness::rounded};
+
+// MPFR's ternary value is zero exactly where nothing was rounded, and has the sign of the rounding.
+Exactness exactness(int ternary) {
+  if (ternary == 0) return Exactness::exact;
+  return ternary > 0 ? Exactness::rounded_up : Exactness::rounded_down;
+}
+
+ExactParts real_part(int ternary) {
+  return {exactness(ternary), Exactness::unknown};
+}
+
+ExactParts complex_parts(int ternary) {
+  return {exactness(MPC_INEX_RE(ternary)), exactness(MPC_INEX_IM(ternary))};
+}
+ExactParts complex_parts(ExactParts parts) {
+  return parts;
+}
+
+// Of a composition of MPFR's functions: where no step was rounded the value is exact.
+ExactParts parts_by_flag() {
+  if (mpfr_inexflag_p() != 0) return not_known;
+  return {Exactness::exact, Exactness::exact};
+}
+
+// polar(r, t) = (r cos t, r sin t); 32 guard bits make the product's error 2^-31 ulp at most.
+ExactParts polar(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
+  MpfrValue s(mpfr_get_prec(out[0]) + 32);
+  MpfrValue c(mpfr_get_prec(out[0]) + 32);
+  mpfr_sin_cos(s, c, a[1], nearest);
+  mpfr_mul(out[0], a[0], c, nearest);
+  mpfr_mul(out[1], a[0], s, nearest);
+  return mpfr_regular_p(a[0].get()) && mpfr_regular_p(a[1].get()) ? transcendental : parts_by_flag();
+}
+
+// For a + ib with `trigonometric` a and `hyperbolic` b, tan(a + ib) has the parts
+//   sin a cos a / (cos^2 a + sinh^2 b)   and   sinh b cosh b / (cos^2 a + sinh^2 b)       (DLMF 4.21.40),
+// products and sums without cancellation.  mpc_tan needs hours and gigabytes where one part is huge or tiny.
+void tangent_parts(mpfr_ptr from_trigonometric, mpfr_ptr from_hyperbolic, mpfr_srcptr a, mpfr_srcptr b) {
+  const mpfr_prec_t bits = mpfr_get_prec(from_trigonometric) + 32;
+  MpfrValue s(bits), c(bits), denominator(bits);
+  mpfr_sin_cos(s, c, a, nearest);
+  mpfr_mul(s, s, c, nearest);
+  if (mpfr_regular_p(b) && mpfr_get_exp(b) > 40) {
+    // sinh^2 b = e^(2|b|)/4 to more than 2^40 bits.
+    mpfr_abs(denominator, b, nearest);
+    mpfr_mul_si(denominator, denominator, -2, nearest);
+    mpfr_exp(denominator, denominator, nearest);
+    mpfr_mul_ui(s, s, 4, nearest);
+    mpfr_mul(from_trigonometric, s, denominator, nearest);
+    mpfr_set_si(from_hyperbolic, mpfr_sgn(b), nearest);
+    return;
+  }
+  MpfrValue sh(bits), ch(bits);
+  mpfr_sinh_cosh(sh, ch, b, nearest);
+  mpfr_sqr(c, c, nearest);
+  mpfr_sqr(denominator, sh, nearest);
+  mpfr_add(denominator, denominator, c, nearest);
+  mpfr_div(from_trigonometric, s, denominator, nearest);
+  mpfr_mul(sh, sh, ch, nearest);
+  mpfr_div(from_hyperbolic, sh, denominator, nearest);
+}
+
+bool is_finite(mpc_srcptr z) {
+  return mpfr_number_p(mpc_realref(z)) != 0 && mpfr_number_p(mpc_imagref(z)) != 0;
+}
+
+// Of finite z.
+ExactParts tangent_exactness(mpc_srcptr z) {
+  return mpfr_zero_p(mpc_realref(z)) || mpfr_zero_p(mpc_imagref(z)) ? not_known : transcendental;
+}
+
+ExactParts tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
+  if (!is_finite(z)) return complex_parts(mpc_tan(out, z, rounding));
+  tangent_parts(mpc_realref(out), mpc_imagref(out), mpc_realref(z), mpc_imagref(z));
+  return tangent_exactness(z);
+}
+
+// tanh z = -i tan(iz): the parts of z change their roles.
+ExactParts hyperbolic_tangent(mpc_ptr out, mpc_srcptr z, mpc_rnd_t rounding) {
+  if (!is_finite(z)) return complex_parts(mpc_tanh(out, z, rounding));
+  tangent_parts(mpc_imagref(out), mpc_realref(out), mpc_imagref(z), mpc_realref(z));
+  return tangent_exactness(z);
+}
+
+long exponent_of(mpfr_srcptr x) {
+  return mpfr_regular_p(x) ? static_cast<long>(mpfr_get_exp(x)) : 0L;
+}
+
+// arg z in units of pi/4 where z lies on an axis or a diagonal.
+std::optional<int> eighths_of_turn(mpc_srcptr z) {
+  const int re = mpfr_sgn(mpc_realref(z));
+  const int im = mpfr_sgn(mpc_imagref(z));
+  if (re != 0 && im != 0 && mpfr_cmpabs(mpc_realref(z), mpc_imagref(z)) != 0) return std::nullopt;
+  if (re > 0) return im;
+  return re == 0 ? 2 * im : im == 0 ? 4 : 3 * im;
+}
+
+bool is_of_modulus_one(mpc_srcptr z) {
+  MpfrValue norm(2 * std::max(mpfr_get_prec(mpc_realref(z)), mpfr_get_prec(mpc_imagref(z))));
+  return mpc_norm(norm, z, nearest) == 0 && mpfr_cmp_ui(norm, 1) == 0;
+}
+
+// |z^w| (cos t + i sin t) where t is the exact multiple Re(w) eighths of pi/4, so that exact zeros are zeros.
+void power_by_turns(mpc_ptr out, mpc_srcptr log_power, mpfr_srcptr re_w, int eighths) {
+  MpfrValue half_turns(mpfr_get_prec(re_w) + 4);
+  mpfr_mul_si(half_turns, re_w, eighths, nearest);
+  mpfr_div_2ui(half_turns, half_turns, 2, nearest);
+  MpfrValue modulus(mpc_get_prec(log_power));
+  MpfrValue direction(mpc_get_prec(log_power));
+  mpfr_exp(modulus, mpc_realref(log_power), nearest);
+  const auto set_part = [&](mpfr_ptr part) {
+    // A modulus beyond the range does not make an exact zero undefined.
+    if (mpfr_zero_p(direction)) {
+      mpfr_set(part, direction, nearest);
+    } else {
+      mpfr_mul(part, modulus, direction, nearest);
+    }
+  };
+  mpfr_cospi(direction, half_turns, nearest);
+  set_part(mpc_realref(out));
+  mpfr_sinpi(direction, half_turns, nearest);
+  set_part(mpc_imagref(out));
+}
+
+// z^w = exp(w log z).  MPC's own power searches for exact results without end in sight where w is complex or
+// large; it serves where w is a small half integer.
+ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
+  const long size = std::max({exponent_of(mpc_realref(w)), exponent_of(mpc_imagref(w)), 0L});
+  const bool zero = mpfr_zero_p(mpc_realref(z)) && mpfr_zero_p(mpc_imagref(z));
+  MpfrValue twice(mpfr_get_prec(mpc_realref(w)));
+  mpfr_mul_ui(twice, mpc_realref(w), 2, nearest);
+  const bool half_integer = mpfr_zero_p(mpc_imagref(w)) && size <= 10 && mpfr_integer_p(twice);
+  if (zero || half_integer || !is_finite(z) || !is_finite(w))
+    return complex_parts(mpc_pow(out, z, w, rounding));
+
+  // The angle Re(w) arg(z) + Im(w) ln|z|: without its second term it may be an exact multiple of pi/4.
+  const bool one_term = mpfr_zero_p(mpc_imagref(w)) || is_of_modulus_one(z);
+  const auto eighths = one_term ? eighths_of_turn(z) : std::nullopt;
+  const mpfr_prec_t precision = mpfr_get_prec(mpc_realref(out));
+  // Where the angle comes close to a multiple of pi/2 a part is small against the modulus and loses as many
+  // bits; they are added until they suffice.  No part is exactly zero here, but a limit must stand.
+  constexpr long most_guard_bits = 1L << 16U;
+  for (long guard = 160;;) {
+    MpcValue product(precision + size + guard);
+    mpc_log(product, z, rounding);
+    mpc_mul(product, product, w, rounding);
+    if (eighths) {
+      power_by_turns(out, product, mpc_realref(w), *eighths);
+      return not_known;
+    }
+    mpc_exp(out, product, rounding);
+    mpfr_srcptr re = mpc_realref(out);
+    mpfr_srcptr im = mpc_imagref(out);
+    if (mpfr_regular_p(re) == 0 || mpfr_regular_p(im) == 0) return not_known;
+    const long lost = std::abs(exponent_of(re) - exponent_of(im));
+    // |log z| needs up to 12 bits before its point for binary64's exponents, 64 for any.
+    if (lost + 80 <= guard || guard >= most_guard_bits) return not_known;
+    guard = std::min(lost + 160, most_guard_bits);
+  }
+}
+
+ExactParts evaluate(const FunctionInfo& f, std::span<const MpfrValue> a, std::span<MpfrValue> out) {
+  if (f.function_class == FunctionClass::complex && oracle::complex_value(f, a, out)) return transcendental;
+  switch (f.id) {
+#define REAL1(name, d0, hard, call) \
+  case FunctionId::name:            \
+    return real_part(call(out[0], a[0], nearest));
+#define REAL2(name, d0, d1, hard, call) \
+  case FunctionId::name:                \
+    return real_part(call(out[0], a[0], a[1], nearest));
+#define OPER2(name, op, d0, d1, hard, call) REAL2(name, d0, d1, hard, call)
+#define REAL3(name, d0, d1, d2, hard, call) \
+  case FunctionId::name:                    \
+    return real_part(call(out[0], a[0], a[1], a[2], nearest));
+#define COMPLEX1(token, callee, call)                        \
+  case FunctionId::token: {                                  \
+    const ComplexArgument z(a[0], a[1]);                     \
+    ComplexOut w(out);                                       \
+    return complex_parts(call(w.value, z.value, MPC_RNDNN)); \
+  }
+#define COMPLEX2(token, callee, call)                                 \
+  case FunctionId::token: {                                           \
+    const ComplexArgument z(a[0], a[1]);                              \
+    const ComplexArgument y(a[2], a[3]);                              \
+    ComplexOut w(out);                                                \
+    return complex_parts(call(w.value, z.value, y.value, MPC_RNDNN)); \
+  }
+#define COMPLEX_REAL(token, callee, call)             \
+  case FunctionId::token: {                           \
+    const ComplexArgument z(a[0], a[1]);              \
+    return real_part(call(out[0], z.value, nearest)); \
+  }
+#define POLAR(token, callee) \
+  case FunctionId::token:    \
+    return polar(a, out);
+#define SPECIAL1(token, d0) \
+  case FunctionId::token:   \
+    oracle::token(a, out);  \
+    return parts_by_flag();
+#define SPECIAL2(token, d0, d1, hard) SPECIAL1(token, d0)
+#define SPECIAL3(token, d0, d1, d2) SPECIAL1(token, d0)
+#define SPECIAL4_COMPLEX(token, d0, d1, d2, d3) SPECIAL1(token, d0)
+#include "reference/functions/functions.def"
+  }
+  return not_known;
+}
+
+}  // namespace
+
+ExactParts exact_value(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out) {
+  const WideExponentRange wide;
+  mpfr_clear_inexflag();
+  return evaluate(f, args, out);
+}
+
+}  // namespace ulpgate

@@ -1,0 +1,20 @@
+// Exact values of the special functions, by series in working precisions that rise until two of them agree.
+#pragma once
+
+#include <span>
+
+#include "reference/types/mpfr_value.hpp"
+
+namespace ulpgate::oracle {
+
+// J_n(x), n = args[0] a non-negative integer: mpfr_jn, correctly rounded.
+void cyl_bessel_j(std::span<const MpfrValue> args, std::span<MpfrValue> out);
+// n!, correctly rounded.
+void factorial(std::span<const MpfrValue> args, std::span<MpfrValue> out);
+// Associated Laguerre polynomial L_n^m(x) = sum_k (-1)^k C(n+m, n-k) x^k / k! (DLMF 18.5.12).
+void laguerre(std::span<const MpfrValue> args, std::span<MpfrValue> out);
+// Y_n^m(theta, phi), theta the polar angle, with the Condon-Shortley phase (DLMF 14.30.1); 0 for |m| > n.
+// out[0] is the real part, out[1] the imaginary part.
+void spherical_harmonic(std::span<const MpfrValue> args, std::span<MpfrValue> out);
+
+}  // namespace ulpgate::oracle
