@@ -2,16 +2,15 @@
 #include <benchmark/benchmark.h>
 
 #include "harness/app/scenes/scene_files.hpp"
-#include "harness/core/kernels/kernel_engine.hpp"
+#include "harness/core/subject/registry.hpp"
 #include "kernels/dem/engine/engine.hpp"
 
 namespace {
 
 constexpr std::size_t batch = 256;
 
-void kernel(benchmark::State& state, const ulpgate::KernelEngine* engine,
-            const ulpgate::dem::KernelInfo* info) {
-  const auto timed = engine->timed_batch(*info, batch);
+void kernel(benchmark::State& state, const ulpgate::Subject* subject) {
+  const auto timed = subject->timed_batch(batch);
   for (auto _ : state) timed->run(batch);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch));
 }
@@ -27,12 +26,13 @@ void scene(benchmark::State& state, const std::string& token, const std::string&
 }
 
 [[maybe_unused]] const bool registered = [] {
-  for (const auto& engine : ulpgate::all_kernel_engines()) {
-    const std::string& token = engine->descriptor().token;
-    for (const auto& info : ulpgate::dem::all_kernels()) {
-      benchmark::RegisterBenchmark(("kernel/" + std::string(info.name) + "/" + token).c_str(), kernel,
-                                   engine.get(), &info);
-    }
+  for (const auto& subject : ulpgate::all_subjects()) {
+    if (subject->info().kind != ulpgate::SubjectKind::kernel) continue;
+    benchmark::RegisterBenchmark(("kernel/" + subject->name() + "/" + subject->type().token).c_str(), kernel,
+                                 subject.get());
+  }
+  for (const auto& type : ulpgate::all_types()) {
+    const std::string& token = type.token;
     for (const auto& builtin : ulpgate::app::builtin_scenes()) {
       const std::string name = "scene/" + std::string(builtin.name) + "/" + token;
       benchmark::RegisterBenchmark(name.c_str(), scene, token, std::string(builtin.name), false);

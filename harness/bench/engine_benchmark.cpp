@@ -4,29 +4,28 @@
 //   engine_benchmark --benchmark_filter='/(sin|exp)/(double|long_double)'
 #include <benchmark/benchmark.h>
 
-#include "harness/core/subject/type_engine.hpp"
+#include "harness/core/subject/registry.hpp"
 
 namespace {
 
-using ulpgate::FunctionInfo;
 using ulpgate::ReferenceMode;
-using ulpgate::TypeEngine;
+using ulpgate::Subject;
 
-void bare(benchmark::State& state, const TypeEngine* engine, const FunctionInfo* f) {
+void bare(benchmark::State& state, const Subject* subject) {
   constexpr std::size_t batch = 256;
-  const auto timed = engine->timed_batch(*f, batch);
+  const auto timed = subject->timed_batch(batch);
   for (auto _ : state) timed->run(batch);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch));
 }
 
 // Successive units of one row, as in a run: what earlier units found lets later ones skip.
-void judged(benchmark::State& state, const TypeEngine* engine, const FunctionInfo* f, ReferenceMode mode) {
+void judged(benchmark::State& state, const Subject* subject, ReferenceMode mode) {
   const std::uint64_t unit = mode == ReferenceMode::full ? 256 : 4096;
   const ulpgate::StratumSource source{ulpgate::Stratum::uniform, 1, std::uint64_t{1} << 40U, nullptr};
-  ulpgate::RowHint hint(f->parts);
+  ulpgate::RowHint hint(subject->info().parts.size());
   std::uint64_t first = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(engine->evaluate(*f, source, first, first + unit, mode, hint));
+    benchmark::DoNotOptimize(subject->evaluate(source, first, first + unit, mode, hint));
     first += unit;
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(first));
@@ -38,14 +37,14 @@ void judged(benchmark::State& state, const TypeEngine* engine, const FunctionInf
 }
 
 [[maybe_unused]] const bool registered = [] {
-  for (const auto& f : ulpgate::all_functions()) {
-    if (f.function_class != ulpgate::FunctionClass::real) continue;
-    for (const auto& engine : ulpgate::all_engines()) {
-      const std::string name = "/" + std::string(f.name) + "/" + engine->descriptor().token;
-      benchmark::RegisterBenchmark(("bare" + name).c_str(), bare, engine.get(), &f);
-      benchmark::RegisterBenchmark(("screened" + name).c_str(), judged, engine.get(), &f,
-                                   ReferenceMode::screened);
-      benchmark::RegisterBenchmark(("full" + name).c_str(), judged, engine.get(), &f, ReferenceMode::full);
+  for (const auto* real : ulpgate::subjects_of(ulpgate::SubjectKind::function)) {
+    if (real->subject_class != "real") continue;
+    for (const auto& type : ulpgate::all_types()) {
+      const Subject* subject = ulpgate::find_subject(real->name, type.token);
+      const std::string name = "/" + real->name + "/" + type.token;
+      benchmark::RegisterBenchmark(("bare" + name).c_str(), bare, subject);
+      benchmark::RegisterBenchmark(("screened" + name).c_str(), judged, subject, ReferenceMode::screened);
+      benchmark::RegisterBenchmark(("full" + name).c_str(), judged, subject, ReferenceMode::full);
     }
   }
   return true;

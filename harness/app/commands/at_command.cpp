@@ -23,19 +23,26 @@ std::string shown(double x, int decimals) {
   return x < 1e15 ? fmt::format("{:.{}f}", x, decimals) : fmt::format("{:.6e}", x);
 }
 
-Json part_json(const PointPart& p) {
-  const bool finite = p.judgement.outcome == Outcome::finite;
-  return {{"value", p.got_hex},
-          {"value_decimal", p.got_decimal},
-          {"reference", p.exact_decimal},
-          {"ulp_error", finite ? number_or_text(p.judgement.error.value) : Json(nullptr)},
-          {"float_distance", finite ? number_or_text(p.judgement.distance) : Json(nullptr)},
-          {"condition", signed_number(p.condition)},
-          {"outcome", name_of(p.judgement.outcome)}};
+// One component stands for itself, several as a list.
+Json one_or_list(const std::vector<std::string>& texts) {
+  return texts.size() == 1 ? Json(texts.front()) : Json(texts);
 }
 
-void print_json(const FunctionInfo& f, const std::string& type, const Point& point) {
-  Json j = {{"function", f.name}, {"type", type}, {"args", point.args_hex}};
+Json part_json(const PointPart& p) {
+  const bool finite = p.judgement.outcome == Outcome::finite;
+  Json j = {{"value", one_or_list(p.got_hex)},
+            {"value_decimal", one_or_list(p.got_decimal)},
+            {"reference", one_or_list(p.exact_decimal)},
+            {"ulp_error", finite ? number_or_text(p.judgement.error.value) : Json(nullptr)},
+            {"float_distance", finite ? number_or_text(p.judgement.distance) : Json(nullptr)}};
+  if (p.normwise_error) j["normwise_error"] = number_or_text(*p.normwise_error);
+  j["condition"] = signed_number(p.condition);
+  j["outcome"] = name_of(p.judgement.outcome);
+  return j;
+}
+
+Json function_json(const Subject& subject, const Point& point) {
+  Json j = {{"function", subject.name()}, {"type", subject.type().token}, {"args", point.args_hex}};
   if (point.parts.size() == 1) {
     j.update(part_json(point.parts[0]));
   } else {
@@ -44,76 +51,59 @@ void print_json(const FunctionInfo& f, const std::string& type, const Point& poi
     const Json im = part_json(point.parts[1]);
     for (const auto& [key, value] : re.items()) j[key] = {value, im.at(key)};
   }
-  fmt::print("{}\n", j.dump());
+  j["implementation"] = subject.info().implementation;
+  return j;
 }
 
-void print_text(const FunctionInfo& f, const TypeEngine& engine, const Point& point) {
-  fmt::print("{} {}\n", f.name, engine.descriptor().token);
-  for (std::size_t i = 0; i < point.args_hex.size(); ++i) {
-    fmt::print("  argument {:<10} {}  ({})\n", i + 1, point.args_hex[i], point.args_decimal[i]);
-  }
-  for (std::size_t i = 0; i < point.parts.size(); ++i) {
-    const PointPart& p = point.parts[i];
-    const bool finite = p.judgement.outcome == Outcome::finite;
-    if (point.parts.size() > 1) fmt::print(" {} part\n", i == 0 ? "real" : "imaginary");
-    fmt::print("  {:<19} {}  ({})\n", "value", p.got_hex, p.got_decimal);
-    fmt::print("  {:<19} {}\n", "exact value", p.exact_decimal);
-    fmt::print("  {:<19} {}\n", "ULP error", finite ? shown(p.judgement.error.value, 6) : "-");
-    fmt::print("  {:<19} {}\n", "float_distance", finite ? shown(p.judgement.distance, 0) : "-");
-    fmt::print("  {:<19} {}\n", "condition number",
-               std::isfinite(p.condition) ? fmt::format("{:.6g}", p.condition) : shown(p.condition, 0));
-    fmt::print("  {:<19} {}\n", "outcome", name_of(p.judgement.outcome));
-  }
-}
-
-Json quantity_json(const dem::Quantity& q, const QuantityPoint& p) {
-  const bool finite = p.judgement.outcome == Outcome::finite;
-  return {{"quantity", q.name},
-          {"value", p.got_hex},
-          {"reference", p.exact_decimal},
-          {"ulp_error", finite ? number_or_text(p.judgement.error.value) : Json(nullptr)},
-          {"float_distance", finite ? number_or_text(p.judgement.distance) : Json(nullptr)},
-          {"normwise_error", number_or_text(p.normwise_error)},
-          {"condition", signed_number(p.condition)},
-          {"outcome", name_of(p.judgement.outcome)}};
-}
-
-// A DEM kernel takes the components of its inputs one after the other.
-ExitCode run_at_kernel(const dem::KernelInfo& kernel, const std::vector<std::string>& plain, bool json) {
-  const KernelEngine& engine = *find_kernel_engine(type_or_fail(plain[1]).descriptor().token);
-  if (plain.size() != kernel.input_components() + 2) {
-    std::string inputs;
-    for (const auto f : kernel.inputs) inputs += fmt::format(" {}[{}]", name_of(f), dem::components_of(f));
-    throw Failure(ExitCode::bad_input, fmt::format("{} takes {} numbers ({} ), found {}", kernel.name,
-                                                   kernel.input_components(), inputs, plain.size() - 2));
-  }
-  std::vector<MpfrValue> inputs;
-  for (std::size_t i = 2; i < plain.size(); ++i)
-    inputs.push_back(parse_number(engine.descriptor(), plain[i], fmt::format("input {}", i - 1)));
-  const KernelPoint point = engine.point(kernel, inputs);
+Json kernel_json(const Subject& subject, const Point& point) {
   Json rows = Json::array();
-  if (!json) fmt::print("{} {}\n", kernel.name, engine.descriptor().token);
-  for (std::size_t q = 0; q < kernel.outputs.size(); ++q) {
-    const QuantityPoint& p = point.quantities[q];
-    rows.push_back(quantity_json(kernel.outputs[q], p));
-    if (json) continue;
-    const bool finite = p.judgement.outcome == Outcome::finite;
-    fmt::print(" {}\n", kernel.outputs[q].name);
-    for (std::size_t i = 0; i < p.got_hex.size(); ++i)
-      fmt::print("  {:<19} {}  (exact {})\n", "value", p.got_hex[i], p.exact_decimal[i]);
-    fmt::print("  {:<19} {}\n", "ULP error", finite ? shown(p.judgement.error.value, 6) : "-");
-    fmt::print("  {:<19} {} roundings\n", "normwise error", shown(p.normwise_error, 6));
-    fmt::print("  {:<19} {}\n", "condition number", shown(p.condition, 6));
-    fmt::print("  {:<19} {}\n", "outcome", name_of(p.judgement.outcome));
+  for (std::size_t q = 0; q < point.parts.size(); ++q) {
+    Json row = {{"quantity", subject.info().parts[q].name}};
+    row.update(part_json(point.parts[q]));
+    // Lists whatever the number of components.
+    for (const auto* key : {"value", "value_decimal", "reference"})
+      if (!row[key].is_array()) row[key] = Json::array({row[key]});
+    rows.push_back(row);
   }
-  if (json) {
-    const Json j = {{"kernel", kernel.name},
-                    {"type", engine.descriptor().token},
-                    {"inputs", point.inputs_hex},
-                    {"quantities", rows}};
-    fmt::print("{}\n", j.dump());
+  return {{"kernel", subject.name()},
+          {"type", subject.type().token},
+          {"inputs", point.args_hex},
+          {"quantities", rows}};
+}
+
+void print_part(const PointPart& p) {
+  const bool finite = p.judgement.outcome == Outcome::finite;
+  for (std::size_t i = 0; i < p.got_hex.size(); ++i) {
+    fmt::print("  {:<19} {}  ({})\n", "value", p.got_hex[i], p.got_decimal[i]);
+    fmt::print("  {:<19} {}\n", "exact value", p.exact_decimal[i]);
   }
-  return ExitCode::pass;
+  fmt::print("  {:<19} {}\n", "ULP error", finite ? shown(p.judgement.error.value, 6) : "-");
+  fmt::print("  {:<19} {}\n", "float_distance", finite ? shown(p.judgement.distance, 0) : "-");
+  if (p.normwise_error) fmt::print("  {:<19} {} roundings\n", "normwise error", shown(*p.normwise_error, 6));
+  fmt::print("  {:<19} {}\n", "condition number",
+             std::isfinite(p.condition) ? fmt::format("{:.6g}", p.condition) : shown(p.condition, 0));
+  fmt::print("  {:<19} {}\n", "outcome", name_of(p.judgement.outcome));
+}
+
+void print_text(const Subject& subject, const Point& point) {
+  const bool function = subject.info().kind == SubjectKind::function;
+  fmt::print("{} {} ({})\n", subject.name(), subject.type().token, subject.info().implementation);
+  for (std::size_t i = 0; function && i < point.args_hex.size(); ++i)
+    fmt::print("  argument {:<10} {}  ({})\n", i + 1, point.args_hex[i], point.args_decimal[i]);
+  for (std::size_t i = 0; i < point.parts.size(); ++i) {
+    if (!function) fmt::print(" {}\n", subject.info().parts[i].name);
+    if (function && point.parts.size() > 1) fmt::print(" {} part\n", i == 0 ? "real" : "imaginary");
+    print_part(point.parts[i]);
+  }
+}
+
+// "a[3] b[1]": the inputs of a kernel, whose components stand one after the other on the command line.
+std::string shown_inputs(const SubjectInfo& info) {
+  if (info.kind == SubjectKind::function)
+    return info.subject_class == "complex" ? " (real and imaginary parts one after the other)" : "";
+  std::string text;
+  for (const auto& input : info.inputs) text += fmt::format(" {}[{}]", input.name, input.components);
+  return " (" + text.substr(1) + ")";
 }
 
 ExitCode run_at(const std::vector<std::string>& words) {
@@ -129,27 +119,27 @@ ExitCode run_at(const std::vector<std::string>& words) {
     }
   }
   if (plain.size() < 2) throw Failure(ExitCode::bad_input, "usage: ulpgate at FUNCTION TYPE X... [--json]");
-  if (const auto* kernel = dem::find_kernel(plain[0])) return run_at_kernel(*kernel, plain, json);
-  const FunctionInfo& f = function_or_fail(plain[0]);
-  const TypeEngine& engine = type_or_fail(plain[1]);
-  if (plain.size() != static_cast<std::size_t>(f.arity) + 2) {
+  const Subject& subject = subject_or_fail(plain[0], plain[1]);
+  const SubjectInfo& info = subject.info();
+  const std::size_t wanted = info.input_components();
+  if (plain.size() != wanted + 2) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{} takes {} argument{}{}, found {}", f.name, f.arity, f.arity == 1 ? "" : "s",
-                              f.function_class == FunctionClass::complex
-                                  ? " (real and imaginary parts one after the other)"
-                                  : "",
-                              plain.size() - 2));
+                  fmt::format("{} takes {} {}{}{}, found {}", info.name, wanted,
+                              info.kind == SubjectKind::function ? "argument" : "number",
+                              wanted == 1 ? "" : "s", shown_inputs(info), plain.size() - 2));
   }
+  const auto function = find_function(info.name);
   std::vector<MpfrValue> args;
-  for (std::size_t i = 2; i < plain.size(); ++i) {
-    args.push_back(
-        parse_argument(f, i - 2, engine.descriptor(), plain[i], fmt::format("argument {}", i - 1)));
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const std::string place = fmt::format("argument {}", i + 1);
+    args.push_back(function ? parse_argument(*function, i, subject.type(), plain[i + 2], place)
+                            : parse_number(subject.type(), plain[i + 2], place));
   }
-  const Point point = engine.point(f, args);
+  const Point point = subject.point(args);
   if (json) {
-    print_json(f, engine.descriptor().token, point);
+    fmt::print("{}\n", (function ? function_json(subject, point) : kernel_json(subject, point)).dump());
   } else {
-    print_text(f, engine, point);
+    print_text(subject, point);
   }
   return ExitCode::pass;
 }

@@ -24,7 +24,7 @@ std::string_view name_of(FindingKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::string reproducer(const Finding& f) {
+std::string reproducer(const GateFinding& f) {
   if (f.at.empty()) return "";
   // Of a scene it is a command already.
   if (f.at.front().starts_with("ulpgate ")) return f.at.front();
@@ -33,7 +33,7 @@ std::string reproducer(const Finding& f) {
   return text;
 }
 
-void print(const std::vector<Finding>& findings, bool json) {
+void print(const std::vector<GateFinding>& findings, bool json) {
   Json rows = Json::array();
   for (const auto& f : findings) {
     if (json) {
@@ -56,7 +56,7 @@ ExitCode update(const GateOptions& o, const RecordSet& set) {
     if (r.summary.samples != r.planned) {
       throw Failure(ExitCode::incomplete,
                     fmt::format("{}: {} {} {} is incomplete: budgets come from whole runs", o.directory,
-                                r.function, r.type, r.stratum));
+                                r.subject, r.type, r.stratum));
     }
   }
   Budgets present = std::filesystem::is_directory(o.budgets) ? read_budgets(o.budgets) : Budgets{};
@@ -75,7 +75,7 @@ ExitCode update(const GateOptions& o, const RecordSet& set) {
 }
 
 // Prints the findings and counts them.
-ExitCode verdict(const GateOptions& o, const std::vector<Finding>& findings, std::size_t records,
+ExitCode verdict(const GateOptions& o, const std::vector<GateFinding>& findings, std::size_t records,
                  bool complete) {
   print(findings, o.json);
   std::size_t failed = 0;
@@ -125,6 +125,10 @@ ExitCode run_gate(const GateOptions& o) {
   const Budgets budgets = read_budgets(o.budgets);
   if (budgets.empty()) {
     throw Failure(ExitCode::incomplete, fmt::format("{}: no budgets; write them with --update", o.budgets));
+  }
+  for (const auto& other : other_codes(set.records, budgets)) {
+    fmt::print(stderr, "ulpgate: note: {}: {} rows were measured with {}, their budgets with {}\n",
+               other.type, other.rows, other.measured, other.budgeted);
   }
   const auto findings =
       judge_records(set.records, budgets, o.only_measured ? MissingRecords::ignore : MissingRecords::fail);

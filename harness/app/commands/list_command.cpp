@@ -1,37 +1,51 @@
 // ulpgate list: what can be measured.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "harness/app/commands/commands.hpp"
 #include "harness/app/scenes/scene_files.hpp"
 #include "harness/app/store/context.hpp"
+#include "harness/core/subject/registry.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
 
 namespace ulpgate::app {
 
 namespace {
 
-std::string domains(const FunctionInfo& f) {
-  std::string text;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(f.arity); ++i) {
-    text += (i == 0 ? "" : ",") + std::string(name_of(f.domain[i]));
-  }
-  return text;
+// Which code each type runs.
+Json implementations(const std::string& name) {
+  Json by_type = Json::object();
+  for (const auto& type : all_types())
+    by_type[type.token] = find_subject(name, type.token)->info().implementation;
+  return by_type;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+std::vector<std::string> part_names(const SubjectInfo& subject) {
+  std::vector<std::string> names;
+  for (const auto& part : subject.parts) names.push_back(part.name);
+  return names;
 }
 
 void list_functions(bool json) {
   Json rows = Json::array();
   if (!json) fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", "function", "class", "arity", "parts", "domain");
-  for (const auto& f : all_functions()) {
-    const std::string parts = f.parts == 1 ? "value" : "re,im";
+  for (const auto* f : subjects_of(SubjectKind::function)) {
+    std::vector<std::string> domains;
+    for (const auto& input : f->inputs) domains.push_back(input.domain);
     if (json) {
-      rows.push_back({{"function", f.name},
-                      {"class", name_of(f.function_class)},
-                      {"arity", f.arity},
-                      {"parts", parts},
-                      {"domain", domains(f)}});
+      rows.push_back({{"function", f->name},
+                      {"class", f->subject_class},
+                      {"arity", f->inputs.size()},
+                      {"parts", joined(part_names(*f))},
+                      {"domain", joined(domains)},
+                      {"implementation", implementations(f->name)}});
     } else {
-      fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", f.name, name_of(f.function_class), f.arity, parts,
-                 domains(f));
+      fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", f->name, f->subject_class, f->inputs.size(),
+                 joined(part_names(*f)), joined(domains));
     }
   }
   if (json) fmt::print("{}\n", rows.dump(2));
@@ -39,13 +53,12 @@ void list_functions(bool json) {
 
 void list_types(bool json) {
   std::vector<std::string> tokens;
-  for (const auto& engine : all_engines()) tokens.push_back(engine->descriptor().token);
+  for (const auto& type : all_types()) tokens.push_back(type.token);
   if (json) return fmt::print("{}\n", type_rows(tokens).dump(2));
   const auto or_dash = [](int n) { return n == 0 ? std::string("-") : std::to_string(n); };
   fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", "token", "C++ type", "total bits",
              "decimal places", "exponent bits", "significand bits", "RealHP<4> bits");
-  for (const auto& engine : all_engines()) {
-    const RealDescriptor& d = engine->descriptor();
+  for (const RealDescriptor& d : all_types()) {
     fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", d.token, d.cpp_type,
                d.total_bits == 0 ? "N" : std::to_string(d.total_bits), d.decimal_places,
                or_dash(d.exponent_bits), d.significand_bits, d.reference_bits);
@@ -65,22 +78,22 @@ void print_strata(const Strata& strata, const char* what, bool json, Json& rows)
 
 void list_strata(bool json) {
   Json rows = Json::array();
-  print_strata(all_strata, "math", json, rows);
-  print_strata(all_state_strata, "kernels", json, rows);
+  print_strata(function_strata, "math", json, rows);
+  print_strata(kernel_strata, "kernels", json, rows);
   if (json) fmt::print("{}\n", rows.dump(2));
 }
 
 void list_kernels(bool json) {
   Json rows = Json::array();
-  for (const auto& k : dem::all_kernels()) {
-    std::string inputs;
-    std::string outputs;
-    for (const auto f : k.inputs) inputs += (inputs.empty() ? "" : ",") + std::string(name_of(f));
-    for (const auto& q : k.outputs) outputs += (outputs.empty() ? "" : ",") + std::string(q.name);
+  for (const auto* k : subjects_of(SubjectKind::kernel)) {
+    std::vector<std::string> names;
+    for (const auto& input : k->inputs) names.push_back(input.name);
+    const std::string inputs = joined(names);
+    const std::string outputs = joined(part_names(*k));
     if (json) {
-      rows.push_back({{"kernel", k.name}, {"inputs", inputs}, {"outputs", outputs}});
+      rows.push_back({{"kernel", k->name}, {"inputs", inputs}, {"outputs", outputs}});
     } else {
-      fmt::print("{:<25} ({}) -> {}\n", k.name, inputs, outputs);
+      fmt::print("{:<25} ({}) -> {}\n", k->name, inputs, outputs);
     }
   }
   if (json) fmt::print("{}\n", rows.dump(2));

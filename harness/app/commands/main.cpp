@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
-#include "harness/app/build_facts.hpp"
 #include "harness/app/commands/commands.hpp"
 #include "harness/app/shell/crash_report.hpp"
+#include "harness/app/store/build_facts.hpp"
 #include "harness/app/store/context.hpp"
 
 int main(int argc, char** argv) {

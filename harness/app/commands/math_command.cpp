@@ -3,14 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "harness/app/commands/commands.hpp"
-#include "harness/app/run/runner.hpp"
-#include "harness/app/run/timing.hpp"
-#include "harness/app/shell/files.hpp"
-#include "harness/app/store/checkpoint.hpp"
-#include "harness/app/store/context.hpp"
+#include "harness/app/run/plan_run.hpp"
 #include "harness/app/store/worst_cases.hpp"
 #include "harness/core/functions/oracle_defects.hpp"
 
@@ -18,31 +13,13 @@ namespace ulpgate::app {
 
 namespace {
 
-struct MathOptions {
-  std::string functions = "all";
-  std::string types = "all";
-  std::string strata = "all";
-  std::uint64_t samples = 20000;
-  std::uint64_t seed = 1;
-  unsigned threads = 0;
-  std::string shard = "0/1";
-  std::string out;
-  std::string reference = "screened";
+struct MathOptions : PlanOptions {
   std::string worst_cases;
-  std::string timing = "auto";
-  bool resume = false;
-  bool overwrite = false;
-  bool json = false;
 };
 
 Plan make_plan(const MathOptions& o) {
-  PlanRequest request;
-  request.functions = select_functions(o.functions);
-  request.types = select_types(o.types);
-  request.strata = select_strata(o.strata);
-  narrow_to_exhaustible(o.functions, o.types, request);
-  request.samples = o.samples;
-  request.seed = o.seed;
+  PlanRequest request = request_of(o);
+  narrow_to_exhaustible(o.subjects, o.types, request);
   WorstCases worst;
   const bool wants_worst = std::ranges::find(request.strata, Stratum::worst) != request.strata.end();
   const std::filesystem::path directory = o.worst_cases.empty() ? "ci/worst_cases" : o.worst_cases;
@@ -53,10 +30,7 @@ Plan make_plan(const MathOptions& o) {
   } else if (wants_worst) {
     fmt::print(stderr, "ulpgate: note: no directory {}: no worst cases are replayed\n", directory.string());
   }
-  Plan plan(std::move(request), worst);
-  if (plan.rows().empty())
-    throw Failure(ExitCode::incomplete, "the selection holds no samples: nothing to measure");
-  return plan;
+  return {std::move(request), worst};
 }
 
 // The two oracles must agree wherever no known defect of the family explains the difference.
@@ -67,7 +41,7 @@ ExitCode report_oracles(const std::vector<RowRecord>& records) {
   for (const auto& r : records) {
     compared += r.summary.oracle.compared;
     if (r.summary.oracle.disagreed == 0) continue;
-    if (known_oracle_defect(*find_function(r.function), r.type)) {
+    if (known_oracle_defect(*find_function(r.subject), r.type)) {
       explained += r.summary.oracle.disagreed;
       continue;
     }
@@ -78,7 +52,7 @@ ExitCode report_oracles(const std::vector<RowRecord>& records) {
                "ulpgate: the oracles disagree: {} {} {} {}: RealHP<4> and MPFR differ by up to {:.3g} ULP of "
                "the type in {} "
                "of {} samples, most at{}\n",
-               r.function, r.part, r.type, r.stratum, r.summary.oracle.difference.value,
+               r.subject, r.part, r.type, r.stratum, r.summary.oracle.difference.value,
                r.summary.oracle.disagreed, r.summary.oracle.compared, args);
   }
   fmt::print(stderr, "ulpgate: oracles compared on {} results; {} differ by known defects of a RealHP<4>\n",
@@ -93,8 +67,7 @@ void report_proofs(const std::vector<RowRecord>& records) {
     fmt::print(stderr,
                "ulpgate: proof for this libm: over all 2^32 floats {} is off by at most {} ULP, at {}; {} "
                "mismatches\n",
-               r.function, r.summary.max_error.value, fmt::join(r.points.argmax, " "),
-               r.summary.mismatches());
+               r.subject, r.summary.max_error.value, fmt::join(r.points.argmax, " "), r.summary.mismatches());
   }
 }
 
@@ -111,51 +84,29 @@ void report_stages(const RunResult& result) {
   fmt::print(stderr, "ulpgate: decided by the stages of the reference: {} of {} samples\n", text, all);
 }
 
-unsigned threads_of(const MathOptions& o, const Ranks* ranks) {
-  if (ranks == nullptr) return o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  if (o.threads > 1) throw Failure(ExitCode::bad_input, "--threads: a rank is one thread; start more ranks");
-  return 1;
+// What its authors promise of a code is broken by any larger error: no budget allows for that.
+ExitCode report_claims(const std::vector<RowRecord>& records) {
+  ExitCode code = ExitCode::pass;
+  for (const auto& r : records) {
+    const auto claim = find_subject(r.subject, r.type)->info().claimed_ulp;
+    if (!claim || r.summary.judged() == 0 || r.summary.max_error.value <= *claim) continue;
+    code = ExitCode::regression;
+    fmt::print(
+        stderr,
+        "ulpgate: {} {} of {} is claimed to be off by at most {} ULP and is off by {}: ulpgate at {} {} "
+        "{}\n",
+        r.subject, r.type, r.implementation, *claim, r.summary.max_error.value, r.subject, r.type,
+        fmt::join(r.points.argmax, " "));
+  }
+  return code;
 }
 
 ExitCode run_math(const MathOptions& o, Ranks* ranks) {
-  const Shard shard = parse_shard(o.shard);
-  const Plan plan = make_plan(o);
-  const unsigned threads = threads_of(o, ranks);
-  const auto mode = o.reference == "full" ? ReferenceMode::full : ReferenceMode::screened;
-  const RunIdentity identity{"math", plan.hash(), shard.text(), machine_facts()};
-  if (ranks != nullptr && !ranks->writes()) {
-    help_plan(plan, shard, mode, identity, *ranks);
-    return ExitCode::pass;
-  }
-  const std::filesystem::path out = o.out;
-  make_directory(out);
-  if (o.resume && is_finished(out, plan.hash(), shard.text())) {
-    fmt::print(stderr, "ulpgate: {} is complete already\n", out.string());
-    return report_oracles(read_records(out).records);
-  }
-  guard_output(out, plan.hash(), o.overwrite);
-  Checkpoint checkpoint(out, identity, partial_run(o.resume, o.overwrite));
-  RunResult result = run_plan(plan, shard, threads, mode, checkpoint, ranks);
-  const std::string text = records_text(result.records);
-  write_file(out / math_records_file, text);
-  Json context =
-      make_context(plan, {shard.text()}, ranks != nullptr ? static_cast<unsigned>(ranks->count()) : threads,
-                   result.complete && shard.count == 1);
-  context["reference"] = o.reference;
-  const bool timed = o.timing == "on" || (o.timing == "auto" && shard.count == 1);
-  if (timed && result.complete) write_file(out / "timing.jsonl", timing_text(measure_times(plan.request())));
-  write_context(out, context, result.complete);
-  if (result.complete) checkpoint.remove();
-  if (o.json) fmt::print("{}", text);
-  if (!result.complete) {
-    throw Failure(ExitCode::incomplete,
-                  fmt::format("interrupted; what was done is in {}; --resume goes on", out.string()));
-  }
-  fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(),
-             (out / math_records_file).string(), plan.hash());
-  report_stages(result);
-  report_proofs(result.records);
-  return report_oracles(result.records);
+  return run_and_write(make_plan(o), o, ranks, [](const RunResult& result) {
+    report_stages(result);
+    report_proofs(result.records);
+    return std::max(report_oracles(result.records), report_claims(result.records));
+  });
 }
 
 }  // namespace
@@ -163,21 +114,14 @@ ExitCode run_math(const MathOptions& o, Ranks* ranks) {
 void add_math_command(CLI::App& app, Action& action, const RanksOfJob& ranks) {
   auto* math = app.add_subcommand("math", "Evaluate math functions and judge them against the reference");
   auto o = std::make_shared<MathOptions>();
-  math->add_option("--functions", o->functions, "all, real, complex, special or names, comma-separated")
+  o->timing = "auto";
+  math->add_option("--functions", o->subjects, "all, real, complex, special or names, comma-separated")
       ->capture_default_str();
-  math->add_option("--types", o->types, "all or tokens, comma-separated")->capture_default_str();
-  math->add_option("--strata", o->strata, "all or names, comma-separated")->capture_default_str();
-  math->add_option("--samples", o->samples,
-                   "samples of uniform and stratified together (halves); binades gets a half more")
-      ->capture_default_str()
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48U));
-  math->add_option("--seed", o->seed, "seed of the arguments")->capture_default_str();
-  math->add_option("--threads", o->threads, "threads, 0: one a core")
-      ->capture_default_str()
-      ->check(CLI::Range(0U, 4096U));
-  math->add_option("--shard", o->shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")
-      ->capture_default_str();
-  math->add_option("--out", o->out, "directory of the records")->required();
+  add_plan_options(
+      *math, *o,
+      "samples of uniform and stratified together (halves where both are chosen); binades gets a "
+      "half more");
+  math->get_option("--out")->required();
   math->add_option(
           "--reference", o->reference,
           "full: MPFR at the precision of RealHP<4> for every sample; screened: cheaper stages first, "
@@ -186,14 +130,6 @@ void add_math_command(CLI::App& app, Action& action, const RanksOfJob& ranks) {
       ->check(CLI::IsMember({"screened", "full"}));
   math->add_option("--worst-cases", o->worst_cases,
                    "directory of worst cases (default ci/worst_cases, if it exists)");
-  math->add_option("--timing", o->timing, "write timing.jsonl: auto (unless a shard), on, off")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "on", "off"}));
-  auto* resume = math->add_flag("--resume", o->resume,
-                                "go on with a run that was interrupted or killed; a new one starts");
-  math->add_flag("--overwrite", o->overwrite, "write over the records of another plan, or a partial run")
-      ->excludes(resume);
-  math->add_flag("--json", o->json, "print the records as well");
   math->callback([=, &action] { action = [=] { return run_math(*o, ranks ? ranks() : nullptr); }; });
 }
 

@@ -59,9 +59,16 @@ ExitCode run_merge(const std::vector<std::string>& directories, const std::strin
       }
     }
     for (const auto& r : set.records) {
-      const std::string key = fmt::format("{} {} {} {}", r.function, r.part, r.type, r.stratum);
+      const std::string key = fmt::format("{} {} {} {}", r.subject, r.part, r.type, r.stratum);
       const auto [it, fresh] = rows.try_emplace(key, r);
-      if (!fresh) merge_record(it->second, r);
+      if (fresh) continue;
+      if (r.implementation != it->second.implementation) {
+        throw Failure(
+            ExitCode::bad_input,
+            fmt::format("{}: {} was measured with {}, in other shards with {}: two codes are no one row",
+                        directory, key, r.implementation, it->second.implementation));
+      }
+      merge_record(it->second, r);
     }
   }
   std::vector<RowRecord> records;

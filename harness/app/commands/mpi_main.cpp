@@ -12,10 +12,10 @@
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 
-#include "harness/app/build_facts.hpp"
 #include "harness/app/commands/commands.hpp"
 #include "harness/app/run/mpi_ranks.hpp"
 #include "harness/app/shell/crash_report.hpp"
+#include "harness/app/store/build_facts.hpp"
 #include "harness/app/store/context.hpp"
 
 namespace ulpgate::app {

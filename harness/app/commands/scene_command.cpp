@@ -19,7 +19,7 @@ namespace ulpgate::app {
 namespace {
 
 ExitCode ladder(const std::string& token, const SceneJob& job, const SceneOptions& o) {
-  const RealDescriptor& type = type_or_fail(token).descriptor();
+  const RealDescriptor& type = type_or_fail(token);
   if (type.format.precision <= 64) {
     fmt::print("{} in {}: the ladder needs a type of more digits than double\n", job.loaded.scene.name,
                token);

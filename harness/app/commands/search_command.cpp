@@ -34,8 +34,9 @@ struct SearchOptions {
   bool json = false;
 };
 
-std::string reproducer(const FunctionInfo& f, const Point& point, const std::string& type) {
-  return fmt::format("ulpgate at {} {} {}", f.name, type, fmt::join(point.args_hex, " "));
+std::string reproducer(const Subject& subject, const Point& point) {
+  return fmt::format("ulpgate at {} {} {}", subject.name(), subject.type().token,
+                     fmt::join(point.args_hex, " "));
 }
 
 // The batches of a round on several threads.
@@ -52,8 +53,7 @@ void run_round(FunctionSearch& search, std::size_t batches, unsigned threads) {
 }
 
 // Until the seconds or the evaluations are spent; false after an interrupt.
-bool hunt(const SearchOptions& o, FunctionSearch& search, unsigned threads, const TypeEngine& engine,
-          const FunctionInfo& f) {
+bool hunt(const SearchOptions& o, FunctionSearch& search, unsigned threads, const Subject& subject) {
   const InterruptGuard guard;
   Progress progress("search");
   const auto start = Clock::now();
@@ -67,7 +67,7 @@ bool hunt(const SearchOptions& o, FunctionSearch& search, unsigned threads, cons
     search.end_round();
     const std::string now = fmt::format("{:.4g}", search.best_error_ulp());
     if (search.best_error_ulp() >= 0 && now != shown) {
-      const Point point = engine.point(f, search.best().args);
+      const Point point = subject.point(search.best().args);
       progress.clear();
       fmt::print(stderr, "ulpgate: {} ULP at {} after {} evaluations\n", now, fmt::join(point.args_hex, " "),
                  search.evaluations());
@@ -82,23 +82,23 @@ bool hunt(const SearchOptions& o, FunctionSearch& search, unsigned threads, cons
   return false;
 }
 
-Json to_json(const SearchOptions& o, const FunctionInfo& f, const FunctionSearch& search,
+Json to_json(const SearchOptions& o, const Subject& subject, const FunctionSearch& search,
              const SearchBest& best, const Point& point) {
   Json mismatches = Json::array();
   for (const auto& [outcome, m] : search.mismatches()) {
-    const Point at = find_engine(o.type)->point(f, m.args);
+    const Point at = subject.point(m.args);
     mismatches.push_back({{"outcome", name_of(outcome)},
                           {"args", at.args_hex},
                           {"confirmed", m.confirmed},
-                          {"reproduce", reproducer(f, at, o.type)}});
+                          {"reproduce", reproducer(subject, at)}});
   }
   Json values = Json::array();
   Json exact = Json::array();
   for (const auto& part : point.parts) {
-    values.push_back(part.got_hex);
-    exact.push_back(part.exact_decimal);
+    values.push_back(part.got_hex.front());
+    exact.push_back(part.exact_decimal.front());
   }
-  return {{"function", f.name},
+  return {{"function", subject.name()},
           {"type", o.type},
           {"seed", o.seed},
           {"evaluations", search.evaluations()},
@@ -108,7 +108,7 @@ Json to_json(const SearchOptions& o, const FunctionInfo& f, const FunctionSearch
           {"ulp_error", number_or_text(best.error_ulp)},
           {"float_distance", number_or_text(best.distance)},
           {"found_after", best.evaluations},
-          {"reproduce", point.args_hex.empty() ? "" : reproducer(f, point, o.type)},
+          {"reproduce", point.args_hex.empty() ? "" : reproducer(subject, point)},
           {"mismatches", mismatches}};
 }
 
@@ -136,8 +136,8 @@ void print_text(const Json& found) {
 
 ExitCode run_search(const SearchOptions& o) {
   const FunctionInfo& f = function_or_fail(o.function);
-  const TypeEngine& engine = type_or_fail(o.type);
-  if (!can_search(f)) {
+  const Subject& subject = subject_or_fail(o.function, o.type);
+  if (!can_search(subject)) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{} is a special function with whole-numbered arguments: search takes real and "
                               "complex functions",
@@ -146,12 +146,12 @@ ExitCode run_search(const SearchOptions& o) {
   // What is wrong with the files should be known before the hunt.
   if (!o.worst_cases.empty()) static_cast<void>(worst_cases_of(o.worst_cases, f, o.type));
   const CrashPlace place(f.name, o.type, "search");
-  const auto search = make_search(o.type, f, o.seed);
+  const auto search = make_search(subject, o.seed);
   const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  const bool complete = hunt(o, *search, threads, engine, f);
+  const bool complete = hunt(o, *search, threads, subject);
   const SearchBest best = search->best();
-  const Point point = best.args.empty() ? Point{} : engine.point(f, best.args);
-  const Json found = to_json(o, f, *search, best, point);
+  const Point point = best.args.empty() ? Point{} : subject.point(best.args);
+  const Json found = to_json(o, subject, *search, best, point);
   if (o.json) {
     fmt::print("{}\n", found.dump());
   } else {

@@ -151,16 +151,16 @@ class Exchange : public UnitExchange {
   std::mutex mutex_;
 };
 
-// The units of a plan of functions.
-class MathUnits {
+class PlanUnits {
  public:
-  MathUnits(const Plan& plan, ReferenceMode mode) : plan_(plan), mode_(mode) {
-    for (const auto& row : plan.rows()) hints_.push_back(std::make_unique<RowHint>(row.function.parts));
+  PlanUnits(const Plan& plan, ReferenceMode mode) : plan_(plan), mode_(mode) {
+    for (const auto& row : plan.rows())
+      hints_.push_back(std::make_unique<RowHint>(row.subject->info().parts.size()));
   }
   [[nodiscard]] std::vector<Summary> evaluate(const WorkUnit& unit) const {
     const PlanRow& row = plan_.rows()[unit.row];
-    const CrashPlace place(row.function.name, row.engine->descriptor().token, name_of(row.source.stratum));
-    return row.engine->evaluate(row.function, row.source, unit.first, unit.last, mode_, *hints_[unit.row]);
+    const CrashPlace place(row.subject->name(), row.subject->type().token, name_of(row.source.stratum));
+    return row.subject->evaluate(row.source, unit.first, unit.last, mode_, *hints_[unit.row]);
   }
   [[nodiscard]] std::array<std::uint64_t, stage_count> decided() const {
     std::array<std::uint64_t, stage_count> sum{};
@@ -223,23 +223,21 @@ UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads
 
 RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode,
                    Checkpoint& checkpoint, Ranks* ranks) {
-  const MathUnits math(plan, mode);
-  // Rows of one function and type stand together.
+  const PlanUnits units(plan, mode);
+  // Rows of one subject stand together.
   std::vector<CostModel::Row> costs;
   std::size_t group = 0;
   for (std::size_t i = 0; i < plan.rows().size(); ++i) {
     const PlanRow& row = plan.rows()[i];
-    if (i > 0 &&
-        (row.engine != plan.rows()[i - 1].engine || row.function.id != plan.rows()[i - 1].function.id))
-      ++group;
-    costs.push_back({group, prior_cost(row.engine->descriptor()), 0});
+    if (i > 0 && row.subject != plan.rows()[i - 1].subject) ++group;
+    costs.push_back({group, prior_cost(row.subject->type()), 0});
   }
-  const UnitJob job{"math", plan.units(), std::move(costs),
-                    [&](const WorkUnit& unit) { return math.evaluate(unit); }};
+  const UnitJob job{plan.request().kind == SubjectKind::function ? "math" : "kernels", plan.units(),
+                    std::move(costs), [&](const WorkUnit& unit) { return units.evaluate(unit); }};
   const UnitSummaries done = run_units(job, shard, threads, checkpoint, ranks);
   RunResult result;
   result.complete = done.complete;
-  result.decided = math.decided();
+  result.decided = units.decided();
   for (std::size_t i = 0; i < done.rows.size(); ++i) {
     if (done.rows[i].empty()) continue;
     for (auto& record : finish_row(plan, plan.rows()[i], done.rows[i]))
@@ -250,10 +248,10 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, Refer
 
 void help_plan(const Plan& plan, const Shard& shard, ReferenceMode mode, const RunIdentity& identity,
                Ranks& ranks) {
-  const MathUnits math(plan, mode);
+  const PlanUnits units(plan, mode);
   const InterruptGuard guard;
   ranks.help(identity, {plan.units(), shard.index, shard.count},
-             [&](const WorkUnit& unit) { return math.evaluate(unit); });
+             [&](const WorkUnit& unit) { return units.evaluate(unit); });
 }
 
 }  // namespace ulpgate::app

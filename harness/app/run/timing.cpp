@@ -8,6 +8,7 @@
 #include "harness/app/shell/crash_report.hpp"
 #include "harness/app/shell/progress.hpp"
 #include "harness/app/store/records.hpp"
+#include "harness/core/subject/registry.hpp"
 
 namespace ulpgate::app {
 
@@ -46,28 +47,11 @@ std::vector<TimingRecord> measure_times(const PlanRequest& request) {
   std::vector<TimingRecord> records;
   Progress progress("timing");
   for (const auto& token : request.types) {
-    for (const auto id : request.functions) {
-      const CrashPlace place(info_of(id).name, token, "timing");
-      records.push_back(
-          measure(info_of(id).name, token, find_engine(token)->timed_batch(info_of(id), batch_size)));
+    for (const auto& name : request.subjects) {
+      const CrashPlace place(name, token, "timing");
+      records.push_back(measure(name, token, find_subject(name, token)->timed_batch(batch_size)));
       progress.update(static_cast<double>(records.size()),
-                      static_cast<double>(request.types.size() * request.functions.size()));
-    }
-  }
-  return records;
-}
-
-std::vector<TimingRecord> measure_times(const KernelPlanRequest& request) {
-  std::vector<TimingRecord> records;
-  Progress progress("timing");
-  for (const auto& token : request.types) {
-    for (const auto id : request.kernels) {
-      const auto& kernel = dem::info_of(id);
-      const CrashPlace place(kernel.name, token, "timing");
-      records.push_back(
-          measure(kernel.name, token, find_kernel_engine(token)->timed_batch(kernel, batch_size)));
-      progress.update(static_cast<double>(records.size()),
-                      static_cast<double>(request.types.size() * request.kernels.size()));
+                      static_cast<double>(request.types.size() * request.subjects.size()));
     }
   }
   return records;

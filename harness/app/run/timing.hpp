@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "harness/core/kernels/kernel_plan.hpp"
 #include "harness/core/plan/plan.hpp"
 
 namespace ulpgate::app {
@@ -17,10 +16,9 @@ struct TimingRecord {
   std::size_t batch;
 };
 
-// The minimum of repeats over one fixed batch of uniform arguments, after a warm-up; one thread.
+// The minimum of repeats over one fixed batch of uniform arguments or typical states, after a warm-up; one
+// thread.
 [[nodiscard]] std::vector<TimingRecord> measure_times(const PlanRequest& request);
-// The same of kernels, over typical states.
-[[nodiscard]] std::vector<TimingRecord> measure_times(const KernelPlanRequest& request);
 [[nodiscard]] std::string timing_text(const std::vector<TimingRecord>& records);
 
 }  // namespace ulpgate::app

@@ -28,7 +28,7 @@ void write_picture(const SceneOptions& o, const std::filesystem::path& out, cons
 }
 
 RecordPlan record_plan(const RunRequest& request, const SceneJob& job, const SceneOptions& o) {
-  const FloatFormat& format = type_or_fail(request.token).descriptor().format;
+  const FloatFormat& format = type_or_fail(request.token).format;
   RecordPlan plan;
   plan.stem = request.stem;
   plan.plan = job.plan;
@@ -87,8 +87,7 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Sce
     if (until == 1 || until == job.steps || (job.record_every != 0 && until % job.record_every == 0))
       recorder.add(engine);
     if (next_compare != compare_at.end() && until == *next_compare) {
-      run.divergence.push_back(
-          compare_engines(engine, *reference, type_or_fail(request.token).descriptor().format));
+      run.divergence.push_back(compare_engines(engine, *reference, type_or_fail(request.token).format));
       ++next_compare;
     }
     // A comparison has no checkpoints: its reference would need them as well.

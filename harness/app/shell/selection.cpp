@@ -28,27 +28,28 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-std::vector<std::string> function_names() {
+std::vector<std::string> names_of(SubjectKind kind) {
   std::vector<std::string> names;
-  for (const auto& f : all_functions()) names.emplace_back(f.name);
+  for (const auto* subject : subjects_of(kind)) names.push_back(subject->name);
   return names;
 }
 
 std::vector<std::string> type_tokens() {
   std::vector<std::string> tokens;
-  for (const auto& engine : all_engines()) tokens.push_back(engine->descriptor().token);
+  for (const auto& type : all_types()) tokens.push_back(type.token);
   return tokens;
 }
 
+// What the option and the list of a kind are called.
+std::string_view word_of(SubjectKind kind) {
+  return kind == SubjectKind::function ? "function" : "kernel";
+}
+
 // Keeps the items of `all` that `chosen` names, in the order of `all`.
-template <class Item, class NameOf>
-std::vector<Item> in_order(const std::vector<Item>& all, const std::vector<std::string>& chosen,
-                           NameOf&& name) {
-  std::vector<Item> out;
-  for (const auto& item : all) {
-    if (std::ranges::find(chosen, name(item)) != chosen.end()) out.push_back(item);
-  }
-  return out;
+std::vector<std::string> in_order(std::vector<std::string> all, const std::vector<std::string>& chosen) {
+  std::erase_if(all,
+                [&](const std::string& item) { return std::ranges::find(chosen, item) == chosen.end(); });
+  return all;
 }
 
 }  // namespace
@@ -75,89 +76,63 @@ void unknown_name(const std::string& what, const std::string& name, const std::v
                                                  name, hint, what == "stratum" ? "strata" : what + "s"));
 }
 
-std::vector<dem::KernelId> select_kernels(const std::string& text) {
-  std::vector<dem::KernelId> all;
-  std::vector<std::string> names;
-  for (const auto& k : dem::all_kernels()) {
-    all.push_back(k.id);
-    names.emplace_back(k.name);
-  }
-  if (text == "all") return all;
-  const auto chosen = split(text, ',');
-  for (const auto& name : chosen) {
-    if (dem::find_kernel(name) == nullptr) unknown_name("kernel", name, names);
-  }
-  return in_order(all, chosen, [](dem::KernelId id) { return std::string(dem::info_of(id).name); });
-}
-
-std::vector<StateStratum> select_state_strata(const std::string& text) {
-  std::vector<StateStratum> all;
-  std::vector<std::string> names;
-  for (const auto& s : all_state_strata) {
-    all.push_back(s.id);
-    names.emplace_back(s.name);
-  }
-  if (text == "all") return all;
-  const auto chosen = split(text, ',');
-  for (const auto& name : chosen) {
-    if (!find_state_stratum(name)) unknown_name("stratum", name, names);
-  }
-  return in_order(all, chosen, [](StateStratum s) { return std::string(name_of(s)); });
-}
-
 const FunctionInfo& function_or_fail(const std::string& name) {
   const auto f = find_function(name);
-  if (!f) unknown_name("function", name, function_names());
+  if (!f) unknown_name("function", name, names_of(SubjectKind::function));
   return info_of(f->id);
 }
 
-const TypeEngine& type_or_fail(const std::string& token) {
-  const TypeEngine* engine = find_engine(token);
-  if (engine == nullptr) unknown_name("type", token, type_tokens());
-  return *engine;
+const RealDescriptor& type_or_fail(const std::string& token) {
+  const RealDescriptor* type = find_type(token);
+  if (type == nullptr) unknown_name("type", token, type_tokens());
+  return *type;
 }
 
-std::vector<FunctionId> select_functions(const std::string& text) {
+const Subject& subject_or_fail(const std::string& name, const std::string& token) {
+  const RealDescriptor& type = type_or_fail(token);
+  const Subject* subject = find_subject(name, type.token);
+  if (subject != nullptr) return *subject;
+  auto known = names_of(SubjectKind::function);
+  for (auto& kernel : names_of(SubjectKind::kernel)) known.push_back(std::move(kernel));
+  unknown_name("function", name, known);
+}
+
+std::vector<std::string> select_subjects(SubjectKind kind, const std::string& text) {
+  const auto known = subjects_of(kind);
   std::vector<std::string> chosen;
   for (const auto& name : split(text, ',')) {
-    bool is_class = false;
-    for (const auto& f : all_functions()) {
-      if (name == "all" || name == name_of(f.function_class)) {
-        chosen.emplace_back(f.name);
-        is_class = true;
-      }
+    const std::size_t before = chosen.size();
+    for (const auto* subject : known) {
+      if (name == "all" || name == subject->subject_class || name == subject->name)
+        chosen.push_back(subject->name);
     }
-    if (!is_class) chosen.emplace_back(function_or_fail(name).name);
+    if (chosen.size() == before) unknown_name(std::string(word_of(kind)), name, names_of(kind));
   }
-  if (chosen.empty()) throw Failure(ExitCode::bad_input, "--functions names no function");
-  std::vector<FunctionId> ids;
-  for (const auto& f : all_functions()) ids.push_back(f.id);
-  return in_order(ids, chosen, [](FunctionId id) { return std::string(info_of(id).name); });
+  if (chosen.empty()) throw Failure(ExitCode::bad_input, fmt::format("--{0}s names no {0}", word_of(kind)));
+  return in_order(names_of(kind), chosen);
 }
 
 std::vector<std::string> select_types(const std::string& text) {
   std::vector<std::string> chosen = text == "all" ? type_tokens() : split(text, ',');
   for (const auto& token : chosen) static_cast<void>(type_or_fail(token));
   if (chosen.empty()) throw Failure(ExitCode::bad_input, "--types names no type");
-  return in_order(type_tokens(), chosen, [](const std::string& t) { return t; });
+  return in_order(type_tokens(), chosen);
 }
 
-std::vector<Stratum> select_strata(const std::string& text) {
+std::vector<Stratum> select_strata(SubjectKind kind, const std::string& text) {
   std::vector<std::string> known;
-  std::vector<Stratum> all;
-  for (const auto& s : all_strata) {
-    known.emplace_back(s.name);
-    all.push_back(s.id);
-  }
+  for (const auto& s : strata_of(kind)) known.emplace_back(s.name);
   std::vector<std::string> chosen = known;
   // All 2^32 floats are a run of their own: asked for by name alone.
   std::erase(chosen, name_of(Stratum::exhaustive));
   if (text != "all") chosen = split(text, ',');
   for (const auto& name : chosen) {
-    if (!find_stratum(name)) unknown_name("stratum", name, known);
+    if (!find_stratum(name, strata_of(kind))) unknown_name("stratum", name, known);
   }
   if (chosen.empty()) throw Failure(ExitCode::bad_input, "--strata names no stratum");
-  return in_order(all, chosen, [](Stratum s) { return std::string(name_of(s)); });
+  std::vector<Stratum> strata;
+  for (const auto& name : in_order(known, chosen)) strata.push_back(*find_stratum(name));
+  return strata;
 }
 
 void narrow_to_exhaustible(const std::string& functions, const std::string& types, PlanRequest& request) {
@@ -171,7 +146,8 @@ void narrow_to_exhaustible(const std::string& functions, const std::string& type
   }
   for (const auto& name : split(functions, ',')) {
     const auto f = find_function(name);
-    if (!f || Plan::can_exhaust(*f, "float")) continue;
+    const Subject* subject = find_subject(name, "float");
+    if (!f || (subject != nullptr && subject->can_exhaust())) continue;
     throw Failure(ExitCode::bad_input,
                   fmt::format("--strata exhaustive takes real functions of one argument: {} is {}", name,
                               f->function_class == FunctionClass::real
@@ -180,7 +156,10 @@ void narrow_to_exhaustible(const std::string& functions, const std::string& type
   }
   if (request.strata.size() > 1) return;
   std::erase_if(request.types, [](const std::string& token) { return token != "float"; });
-  std::erase_if(request.functions, [](FunctionId id) { return !Plan::can_exhaust(info_of(id), "float"); });
+  std::erase_if(request.subjects, [](const std::string& name) {
+    const Subject* subject = find_subject(name, "float");
+    return subject == nullptr || !subject->can_exhaust();
+  });
 }
 
 Shard parse_shard(const std::string& text) {

@@ -1,25 +1,24 @@
-// Names on the command line: functions, types, strata and shards, with a helpful word for the misspelt.
+// Names on the command line: subjects, types, strata and shards, with a helpful word for the misspelt.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "harness/core/kernels/kernel_plan.hpp"
 #include "harness/core/plan/plan.hpp"
+#include "harness/core/subject/registry.hpp"
+#include "reference/functions/function_info.hpp"
 
 namespace ulpgate::app {
 
 [[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
-// "all", "real", "complex", "special" or names; in the order of the function list, each once.
-[[nodiscard]] std::vector<FunctionId> select_functions(const std::string& text);
+// "all", a class of subjects ("real", "complex", "special") or names; in the order of the lists, each once.
+[[nodiscard]] std::vector<std::string> select_subjects(SubjectKind kind, const std::string& text);
 [[nodiscard]] std::vector<std::string> select_types(const std::string& text);
-[[nodiscard]] std::vector<Stratum> select_strata(const std::string& text);
+[[nodiscard]] std::vector<Stratum> select_strata(SubjectKind kind, const std::string& text);
 // Where the exhaustive stratum was asked for: types and functions that it cannot take are a Failure when
 // named one by one, and left out when they came with "all", "real" and the like.
 void narrow_to_exhaustible(const std::string& functions, const std::string& types, PlanRequest& request);
-[[nodiscard]] std::vector<dem::KernelId> select_kernels(const std::string& text);
-[[nodiscard]] std::vector<StateStratum> select_state_strata(const std::string& text);
 
 struct Shard {
   std::uint64_t index = 0;
@@ -33,6 +32,8 @@ struct Shard {
 [[noreturn]] void unknown_name(const std::string& what, const std::string& name,
                                const std::vector<std::string>& known);
 [[nodiscard]] const FunctionInfo& function_or_fail(const std::string& name);
-[[nodiscard]] const TypeEngine& type_or_fail(const std::string& token);
+[[nodiscard]] const RealDescriptor& type_or_fail(const std::string& token);
+// A function or kernel in a type.
+[[nodiscard]] const Subject& subject_or_fail(const std::string& name, const std::string& token);
 
 }  // namespace ulpgate::app

@@ -9,7 +9,6 @@
 
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/files.hpp"
-#include "harness/core/kernels/kernel_strata.hpp"
 
 namespace ulpgate::app {
 
@@ -34,7 +33,7 @@ std::map<std::string, double> parse_limits(const std::string& file, const toml::
   std::map<std::string, double> limits;
   for (const auto& [stratum, value] : *table) {
     const auto limit = value.value<double>();
-    if (!find_stratum(stratum.str()) && !find_state_stratum(stratum.str()))
+    if (!find_stratum(stratum.str()))
       bad(file, value, fmt::format("[{}] {}: no stratum '{}'", name, key, stratum.str()));
     if (!limit || std::isnan(*limit) || *limit < 0)
       bad(file, value, fmt::format("[{}] {} of {} must be a number >= 0", name, key, stratum.str()));
@@ -52,6 +51,8 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
       has_limit = true;
     } else if (key == "over_condition") {
       budget.over_condition = parse_limits(file, node, name, key.str());
+    } else if (key == "implementation" && node.is_string()) {
+      budget.implementation = *node.value<std::string>();
     } else if (key == "reason" && node.is_string()) {
       budget.reason = *node.value<std::string>();
     } else if (key == "mismatch" && node.is_table()) {
@@ -60,12 +61,20 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
       }
     } else {
       bad(file, node,
-          fmt::format("[{}] has no key '{}' of this kind (max_ulp, over_condition, mismatch, reason)", name,
-                      key.str()));
+          fmt::format("[{}] has no key '{}' of this kind (implementation, max_ulp, over_condition, mismatch, "
+                      "reason)",
+                      name, key.str()));
     }
   }
   if (!has_limit) bad(file, row, fmt::format("[{}] lacks max_ulp", name));
   return budget;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text)
+    out += c == '"' || c == '\\' ? std::string("\\") + c : c == '\n' ? " " : std::string(1, c);
+  return out + "\"";
 }
 
 std::string number(double x) {
@@ -91,7 +100,9 @@ std::string file_text(const std::string& token, const TypeBudgets& type) {
       "[plan]\nsamples = {}\nseed = {}\n",
       token, type.samples, type.seed);
   for (const auto& [row, b] : type.rows) {
-    text += fmt::format("\n[budget.\"{}\"]\n", row) + limits_text("max_ulp", b.max_ulp);
+    text += fmt::format("\n[budget.\"{}\"]\n", row);
+    if (!b.implementation.empty()) text += fmt::format("implementation = {}\n", quoted(b.implementation));
+    text += limits_text("max_ulp", b.max_ulp);
     if (!b.over_condition.empty()) text += limits_text("over_condition", b.over_condition);
     if (!b.mismatch.empty()) {
       text += "mismatch = {";
@@ -102,12 +113,7 @@ std::string file_text(const std::string& token, const TypeBudgets& type) {
       }
       text += " }\n";
     }
-    if (!b.reason.empty()) {
-      std::string quoted;
-      for (const char c : b.reason)
-        quoted += c == '"' || c == '\\' ? std::string("\\") + c : c == '\n' ? " " : std::string(1, c);
-      text += fmt::format("reason = \"{}\"\n", quoted);
-    }
+    if (!b.reason.empty()) text += fmt::format("reason = {}\n", quoted(b.reason));
   }
   return text;
 }

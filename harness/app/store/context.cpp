@@ -10,8 +10,9 @@
 #include <cfenv>
 #include <fstream>
 
-#include "harness/app/build_facts.hpp"
 #include "harness/app/shell/failure.hpp"
+#include "harness/app/store/build_facts.hpp"
+#include "harness/core/subject/registry.hpp"
 
 namespace ulpgate::app {
 
@@ -52,7 +53,7 @@ Json machine_facts() {
 Json type_rows(const std::vector<std::string>& tokens) {
   Json rows = Json::array();
   for (const auto& token : tokens) {
-    const RealDescriptor& d = find_engine(token)->descriptor();
+    const RealDescriptor& d = *find_type(token);
     rows.push_back({{"token", d.token},
                     {"cpp_type", d.cpp_type},
                     {"total_bits", d.total_bits == 0 ? Json(nullptr) : Json(d.total_bits)},
@@ -66,60 +67,50 @@ Json type_rows(const std::vector<std::string>& tokens) {
 
 namespace {
 
-// And a run over strata of samples.
-template <class AnyPlan>
-Json context_of(const AnyPlan& plan, const std::vector<std::string>& shards, unsigned threads,
-                bool complete) {
+Json function_row(const SubjectInfo& f) {
+  Json parts = Json::array();
+  for (const auto& part : f.parts) parts.push_back(part.name);
+  Json domain = Json::array();
+  for (const auto& input : f.inputs) domain.push_back(input.domain);
+  return {{"name", f.name},
+          {"class", f.subject_class},
+          {"arity", f.inputs.size()},
+          {"parts", parts},
+          {"domain", domain}};
+}
+
+Json kernel_row(const SubjectInfo& k) {
+  Json inputs = Json::array();
+  for (const auto& input : k.inputs)
+    inputs.push_back({{"name", input.name}, {"components", input.components}});
+  Json outputs = Json::array();
+  for (const auto& q : k.parts) outputs.push_back({{"name", q.name}, {"components", q.components}});
+  return {{"name", k.name}, {"inputs", inputs}, {"outputs", outputs}};
+}
+
+}  // namespace
+
+Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads, bool complete) {
+  const PlanRequest& request = plan.request();
   Json strata = Json::array();
-  for (const auto s : plan.request().strata) strata.push_back(name_of(s));
+  for (const auto s : request.strata) strata.push_back(name_of(s));
   Json c = machine_facts();
-  c["seed"] = plan.request().seed;
-  c["samples"] = plan.request().samples;
+  c["seed"] = request.seed;
+  c["samples"] = request.samples;
   c["strata"] = strata;
   c["plan"] = plan.hash();
   c["plan_text"] = plan.text();
   c["shards"] = shards;
   c["threads"] = threads;
   c["complete"] = complete;
-  c["types"] = type_rows(plan.request().types);
-  return c;
-}
-
-}  // namespace
-
-Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads, bool complete) {
-  Json functions = Json::array();
-  for (const auto id : plan.request().functions) {
-    const FunctionInfo& f = info_of(id);
-    Json parts = Json::array();
-    for (int i = 0; i < f.parts; ++i) parts.push_back(part_name(f, i));
-    Json domain = Json::array();
-    for (int i = 0; i < f.arity; ++i) domain.push_back(name_of(f.domain[static_cast<std::size_t>(i)]));
-    functions.push_back({{"name", f.name},
-                         {"class", name_of(f.function_class)},
-                         {"arity", f.arity},
-                         {"parts", parts},
-                         {"domain", domain}});
+  c["types"] = type_rows(request.types);
+  const bool functions = request.kind == SubjectKind::function;
+  Json subjects = Json::array();
+  for (const auto& name : request.subjects) {
+    const SubjectInfo& subject = find_subject(name, request.types.front())->info();
+    subjects.push_back(functions ? function_row(subject) : kernel_row(subject));
   }
-  Json c = context_of(plan, shards, threads, complete);
-  c["functions"] = functions;
-  return c;
-}
-
-Json make_context(const KernelPlan& plan, const std::vector<std::string>& shards, unsigned threads,
-                  bool complete) {
-  Json kernels = Json::array();
-  for (const auto id : plan.request().kernels) {
-    const dem::KernelInfo& k = dem::info_of(id);
-    Json inputs = Json::array();
-    for (const auto f : k.inputs)
-      inputs.push_back({{"name", name_of(f)}, {"components", dem::components_of(f)}});
-    Json outputs = Json::array();
-    for (const auto& q : k.outputs) outputs.push_back({{"name", q.name}, {"components", q.components}});
-    kernels.push_back({{"name", k.name}, {"inputs", inputs}, {"outputs", outputs}});
-  }
-  Json c = context_of(plan, shards, threads, complete);
-  c["kernels"] = kernels;
+  c[functions ? "functions" : "kernels"] = subjects;
   return c;
 }
 

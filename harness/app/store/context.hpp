@@ -2,15 +2,12 @@
 #pragma once
 
 #include "harness/app/store/records.hpp"
-#include "harness/core/kernels/kernel_plan.hpp"
 #include "harness/core/plan/plan.hpp"
 
 namespace ulpgate::app {
 
 [[nodiscard]] Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsigned threads,
                                 bool complete);
-[[nodiscard]] Json make_context(const KernelPlan& plan, const std::vector<std::string>& shards,
-                                unsigned threads, bool complete);
 [[nodiscard]] Json make_scene_context(const std::string& plan, const std::string& plan_text,
                                       const std::vector<std::string>& types, unsigned threads, bool complete);
 // Program, compiler, flags, libraries and processor: what else decides a run's numbers beside its plan.

@@ -53,10 +53,11 @@ std::string to_json_line(const RowRecord& r) {
     }
   }
   Json j;
-  j["function"] = r.function;
+  j["function"] = r.subject;
   j["part"] = r.part;
   j["type"] = r.type;
-  j["class"] = r.function_class;
+  j["class"] = r.subject_class;
+  j["implementation"] = r.implementation;
   j["stratum"] = r.stratum;
   j["samples"] = s.samples;
   j["planned"] = r.planned;
@@ -77,7 +78,7 @@ std::string to_json_line(const RowRecord& r) {
   j["mismatch"] = mismatch;
   j["mismatch_first"] = first;
   j["mismatch_index"] = first_index;
-  if (r.function_class == kernel_class) {
+  if (r.subject_class == kernel_class) {
     j["max_normwise"] = number_or_text(s.normwise.value);
     j["normwise_argmax"] = r.points.normwise_argmax;
     j["normwise_index"] = index_to(s.normwise.index);
@@ -104,10 +105,11 @@ RowRecord from_json_line(const std::string& line, const std::string& place) {
     const Json j = Json::parse(line);
     RowRecord r;
     Summary& s = r.summary;
-    r.function = j.at("function");
+    r.subject = j.at("function");
     r.part = j.at("part");
     r.type = j.at("type");
-    r.function_class = j.at("class");
+    r.subject_class = j.at("class");
+    r.implementation = j.at("implementation");
     r.stratum = j.at("stratum");
     s.samples = j.at("samples");
     r.planned = j.at("planned");
@@ -138,7 +140,7 @@ RowRecord from_json_line(const std::string& line, const std::string& place) {
     }
     if (total != s.samples)
       throw std::invalid_argument("judged and mismatched samples do not add up to samples");
-    if (r.function_class == kernel_class) {
+    if (r.subject_class == kernel_class) {
       s.normwise = {number_from(j.at("max_normwise")), index_from(j.at("normwise_index"))};
       r.points.normwise_argmax = j.at("normwise_argmax").get<std::vector<std::string>>();
       r.points.condition = number_from(j.at("condition"));

@@ -75,13 +75,13 @@ WorstCaseFile read_worst_cases(const std::filesystem::path& directory, const Pla
       }
       std::vector<MpfrValue> point;
       for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-        point.push_back(parse_argument(*f, i, type_or_fail(token).descriptor(), words[i + 1], place));
+        point.push_back(parse_argument(*f, i, type_or_fail(token), words[i + 1], place));
       }
-      if (std::ranges::find(request.functions, f->id) == request.functions.end()) continue;
+      if (std::ranges::find(request.subjects, words[0]) == request.subjects.end()) continue;
       out.text += token + " " + words[0];
       for (const auto& x : point) out.text += " " + to_hexfloat(x.get());
       out.text += "\n";
-      out.cases[{f->id, token}].push_back(std::move(point));
+      out.cases[{words[0], token}].push_back(std::move(point));
     }
   }
   return out;
@@ -90,17 +90,17 @@ WorstCaseFile read_worst_cases(const std::filesystem::path& directory, const Pla
 ArgumentList worst_cases_of(const std::filesystem::path& directory, const FunctionInfo& f,
                             const std::string& token) {
   PlanRequest request;
-  request.functions = {f.id};
+  request.subjects = {std::string(f.name)};
   request.types = {token};
-  return std::move(read_worst_cases(directory, request).cases[{f.id, token}]);
+  return std::move(read_worst_cases(directory, request).cases[{std::string(f.name), token}]);
 }
 
 std::string offer_worst_case(const std::filesystem::path& directory, const FunctionInfo& f,
                              const std::string& token, const std::vector<MpfrValue>& args, double error_ulp) {
   const auto file = directory / (token + ".txt");
-  const TypeEngine& engine = type_or_fail(token);
+  const Subject& subject = subject_or_fail(std::string(f.name), token);
   for (const auto& point : worst_cases_of(directory, f, token)) {
-    const Point there = engine.point(f, point);
+    const Point there = subject.point(point);
     double error = -1;
     for (const auto& part : there.parts) {
       if (part.judgement.outcome == Outcome::finite) error = std::max(error, part.judgement.error.value);

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "harness/core/plan/plan.hpp"
+#include "reference/functions/function_info.hpp"
 
 namespace ulpgate::app {
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "harness/core/arguments/strata.hpp"
 #include "reference/functions/function_info.hpp"
 #include "reference/types/format.hpp"
 #include "reference/types/mpfr_value.hpp"
@@ -12,6 +13,14 @@ namespace ulpgate {
 // Each entry is one point: `arity` values of the format, all within the domain of the function's index
 // arguments.
 using ArgumentList = std::vector<std::vector<MpfrValue>>;
+
+// Where the points of one row of a run come from.  `list` is set for listed strata.
+struct StratumSource {
+  Stratum stratum = Stratum::uniform;
+  std::uint64_t seed = 1;
+  std::uint64_t count = 0;
+  const ArgumentList* list = nullptr;
+};
 
 // The exponents that are drawn.  MPFR's and cpp_bin_float's ranges reach 2^(2^30), where an argument
 // reduction needs a billion digits of pi: they are sampled over the exponents of binary128.  Complex

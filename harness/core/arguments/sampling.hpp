@@ -10,18 +10,9 @@
 
 #include "harness/core/arguments/argument_lists.hpp"
 #include "harness/core/arguments/random_words.hpp"
-#include "harness/core/arguments/strata.hpp"
 #include "reference/types/exchange.hpp"
 
 namespace ulpgate {
-
-// Where the points of one row of a run come from.  `list` is set for listed strata.
-struct StratumSource {
-  Stratum stratum = Stratum::uniform;
-  std::uint64_t seed = 1;
-  std::uint64_t count = 0;
-  const ArgumentList* list = nullptr;
-};
 
 namespace detail {
 

@@ -1,21 +1,32 @@
-// Strata: the named ways of drawing arguments.
+// Strata: the named ways of drawing the arguments of functions and the states of kernels.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace ulpgate {
 
 enum class Stratum {
   worst,       // known worst cases, kept as data and replayed first
-  uniform,     // random on (-100, 100), then the domain map (the paper's first set)
-  stratified,  // equidistant cells, one random point in each, then the domain map (the paper's second set)
+  uniform,     // functions: random on (-100, 100), then the domain map (the paper's first set); kernels: wide
+  stratified,  // the same, equidistributed over cells (the paper's second set)
   binades,     // every exponent of the type that the domain allows, random significands, both signs
   edges,  // zeros, infinities, NaN, least and greatest numbers, 1, integers, halves, poles and neighbours
   hard,   // structured: nearest to multiples of pi/2, to zeros, to over- and underflow, powers near 1
   exhaustive,  // every value of the type; float alone, functions of one argument; never part of "all"
+  typical,     // kernels: small overlaps, moderate speeds: what a simulation is made of
+  grazing,     // relative velocity almost across the normal
+  touching,    // overlaps down to the last bit of the radii
+  deep,        // overlaps up to 0.9 of the smaller radius
+  ratio,       // radii up to 2^40 (1e12) apart
+  far,         // positions up to 2^40 from the origin
+  slow,        // velocities and rotations down to 2^-60
+  parallel,    // normals and orientations that hardly turn
+  cone,        // shear force on the friction cone, no slip in the step
 };
 
 struct StratumInfo {
@@ -24,7 +35,7 @@ struct StratumInfo {
   std::string_view description;
 };
 
-inline constexpr std::array<StratumInfo, 7> all_strata = {{
+inline constexpr std::array<StratumInfo, 7> function_strata = {{
     {Stratum::worst, "worst", "known worst cases from ci/worst_cases, replayed first"},
     {Stratum::uniform, "uniform", "random on (-100, 100), mapped to the domain once"},
     {Stratum::stratified, "stratified",
@@ -36,21 +47,44 @@ inline constexpr std::array<StratumInfo, 7> all_strata = {{
      "all 2^32 values of float, real functions of one argument; a proof; not part of `all`"},
 }};
 
-[[nodiscard]] constexpr std::string_view name_of(Stratum s) {
-  return all_strata[static_cast<std::size_t>(s)].name;
+inline constexpr std::array<StratumInfo, 11> kernel_strata = {{
+    {Stratum::uniform, "uniform", "everything drawn independently over wide ranges"},
+    {Stratum::stratified, "stratified", "as uniform, every number equidistributed over cells"},
+    {Stratum::typical, "typical", "small overlaps, moderate speeds: what a simulation is made of"},
+    {Stratum::grazing, "grazing", "relative velocity almost across the normal"},
+    {Stratum::touching, "touching", "overlaps down to the last bit of the radii"},
+    {Stratum::deep, "deep", "overlaps up to 0.9 of the smaller radius"},
+    {Stratum::ratio, "ratio", "radii up to 2^40 (1e12) apart"},
+    {Stratum::far, "far", "positions up to 2^40 from the origin"},
+    {Stratum::slow, "slow", "velocities and rotations down to 2^-60"},
+    {Stratum::parallel, "parallel", "normals and orientations that hardly turn"},
+    {Stratum::cone, "cone", "shear force on the friction cone, no slip in the step"},
+}};
+
+[[nodiscard]] constexpr std::optional<Stratum> find_stratum(std::string_view name,
+                                                            std::span<const StratumInfo> among) {
+  const auto* it = std::ranges::find(among.data(), among.data() + among.size(), name, &StratumInfo::name);
+  return it == among.data() + among.size() ? std::nullopt : std::optional(it->id);
+}
+// Among all of them: one name is one stratum.
+[[nodiscard]] constexpr std::optional<Stratum> find_stratum(std::string_view name) {
+  const auto found = find_stratum(name, function_strata);
+  return found ? found : find_stratum(name, kernel_strata);
 }
 
-[[nodiscard]] constexpr std::optional<Stratum> find_stratum(std::string_view name) {
-  for (const auto& s : all_strata) {
-    if (s.name == name) return s.id;
-  }
-  return std::nullopt;
+[[nodiscard]] constexpr std::string_view name_of(Stratum s) {
+  const auto* it = std::ranges::find(function_strata, s, &StratumInfo::id);
+  if (it != function_strata.end()) return it->name;
+  return std::ranges::find(kernel_strata, s, &StratumInfo::id)->name;
 }
 
 // A drawn stratum grows with --samples; a listed one has the size of its list, the exhaustive one that of the
 // type.
+[[nodiscard]] constexpr bool is_listed(Stratum s) {
+  return s == Stratum::worst || s == Stratum::edges || s == Stratum::hard;
+}
 [[nodiscard]] constexpr bool is_drawn(Stratum s) {
-  return s == Stratum::uniform || s == Stratum::stratified || s == Stratum::binades;
+  return !is_listed(s) && s != Stratum::exhaustive;
 }
 
 // Every bit pattern of float, each once.

@@ -7,6 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <set>
+
+#include "harness/core/plan/plan.hpp"
 
 namespace ulpgate {
 
@@ -27,10 +30,11 @@ std::string mismatch_key(const RowRecord& r, std::size_t outcome) {
 }
 
 std::uint64_t allowed_count(std::uint64_t budgeted, const RowRecord& r, const TypeBudgets& type) {
-  const bool kernel = r.function_class == kernel_class;
-  if (!kernel && !is_drawn(find_stratum(r.stratum).value_or(Stratum::edges))) return budgeted;
+  const Stratum stratum = find_stratum(r.stratum).value_or(Stratum::edges);
+  if (!is_drawn(stratum)) return budgeted;
+  const auto kind = r.subject_class == kernel_class ? SubjectKind::kernel : SubjectKind::function;
   const std::uint64_t planned_then =
-      kernel ? type.samples : Plan::drawn_count(*find_stratum(r.stratum), type.samples);
+      drawn_count(kind, stratum, type.samples, {Stratum::uniform, Stratum::stratified});
   if (planned_then == r.planned && type.seed == r.seed) return budgeted;
   if (budgeted == 0) return 0;
   const double expected = static_cast<double>(budgeted) * static_cast<double>(r.planned) /
@@ -40,7 +44,7 @@ std::uint64_t allowed_count(std::uint64_t budgeted, const RowRecord& r, const Ty
 
 // `limit` is the row's own in this stratum.
 void judge_row(const RowRecord& r, const Budget& budget, double limit, const TypeBudgets& type,
-               std::vector<Finding>& findings) {
+               std::vector<GateFinding>& findings) {
   const std::string row = budget_key(r);
   const Summary& s = r.summary;
   // NaN limits cannot be: comparisons are written so that anything unordered fails.
@@ -73,12 +77,12 @@ void judge_row(const RowRecord& r, const Budget& budget, double limit, const Typ
 }  // namespace
 
 std::string budget_key(const RowRecord& r) {
-  return r.part == "value" ? r.function : r.function + "." + r.part;
+  return r.part == "value" ? r.subject : r.subject + "." + r.part;
 }
 
-std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const Budgets& budgets,
-                                   MissingRecords missing) {
-  std::vector<Finding> findings;
+std::vector<GateFinding> judge_records(const std::vector<RowRecord>& records, const Budgets& budgets,
+                                       MissingRecords missing) {
+  std::vector<GateFinding> findings;
   std::map<std::array<std::string, 3>, double> measured;  // by type, row, stratum
   for (const RowRecord& r : records) {
     const std::string row = budget_key(r);
@@ -133,11 +137,27 @@ std::vector<Finding> judge_records(const std::vector<RowRecord>& records, const 
       }
     }
   }
-  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+  std::stable_sort(findings.begin(), findings.end(), [](const GateFinding& a, const GateFinding& b) {
     if (a.kind != b.kind) return a.kind < b.kind;
     return a.severity > b.severity;
   });
   return findings;
+}
+
+std::vector<OtherCode> other_codes(const std::vector<RowRecord>& records, const Budgets& budgets) {
+  std::map<std::array<std::string, 3>, std::set<std::string>> rows;
+  for (const RowRecord& r : records) {
+    const auto type = budgets.find(r.type);
+    if (type == budgets.end()) continue;
+    const auto budget = type->second.rows.find(budget_key(r));
+    if (budget == type->second.rows.end()) continue;
+    const std::string& then = budget->second.implementation;
+    if (!then.empty() && then != r.implementation)
+      rows[{r.type, then, r.implementation}].insert(budget->first);
+  }
+  std::vector<OtherCode> found;
+  for (const auto& [key, names] : rows) found.push_back({key[0], key[1], key[2], names.size()});
+  return found;
 }
 
 Budgets measured_budgets(const std::vector<RowRecord>& records, std::uint64_t samples, std::uint64_t seed) {
@@ -147,8 +167,9 @@ Budgets measured_budgets(const std::vector<RowRecord>& records, std::uint64_t sa
     type.samples = samples;
     type.seed = seed;
     Budget& budget = type.rows[budget_key(r)];
+    budget.implementation = r.implementation;
     budget.max_ulp[r.stratum] = r.summary.judged() > 0 ? round_up(r.summary.max_error.value) : 0;
-    if (r.function_class == kernel_class)
+    if (r.subject_class == kernel_class)
       budget.over_condition[r.stratum] = round_up(r.summary.max_error_over_condition);
     for (std::size_t o = 1; o < outcome_count; ++o) {
       if (r.summary.outcomes[o] > 0) budget.mismatch[mismatch_key(r, o)] = r.summary.outcomes[o];
@@ -196,6 +217,7 @@ void replace_strata(Budget& mine, const Budget& measured) {
   }
   for (const auto& [stratum, limit] : measured.over_condition) mine.over_condition[stratum] = limit;
   mine.mismatch.insert(measured.mismatch.begin(), measured.mismatch.end());
+  mine.implementation = measured.implementation;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace ulpgate {
 // The limits of one function part of one type.  Each stratum has its own: a libm that is 1e5 ULP off at one
 // structured argument must not hide a regression to 5 ULP at ordinary ones.
 struct Budget {
+  std::string implementation;             // the code that was measured; empty where no record said
   std::map<std::string, double> max_ulp;  // by stratum
   // Kernels only: normwise error / (condition * unit roundoff), by stratum.
   std::map<std::string, double> over_condition;
@@ -37,7 +38,7 @@ using Budgets = std::map<std::string, TypeBudgets>;  // by type token
 
 enum class FindingKind { regression, missing_budget, missing_record, incomplete, could_lower };
 
-struct Finding {
+struct GateFinding {
   FindingKind kind;
   std::string type;
   std::string row;
@@ -51,12 +52,22 @@ enum class MissingRecords { fail, ignore };
 // Judges complete sets of records; findings are sorted: regressions by falling severity, then the others.
 // Mismatch counts of drawn strata are compared as they are where samples and seed are those of the budget;
 // for another size they are scaled, with five standard deviations of a Poisson count as allowance.
-[[nodiscard]] std::vector<Finding> judge_records(const std::vector<RowRecord>& records,
-                                                 const Budgets& budgets, MissingRecords missing);
+[[nodiscard]] std::vector<GateFinding> judge_records(const std::vector<RowRecord>& records,
+                                                     const Budgets& budgets, MissingRecords missing);
 
 // The budgets that just hold for these records: maxima rounded up to three significant digits.
 [[nodiscard]] Budgets measured_budgets(const std::vector<RowRecord>& records, std::uint64_t samples,
                                        std::uint64_t seed);
+
+// Rows that were measured with another code than their budget was.
+struct OtherCode {
+  std::string type;
+  std::string budgeted;  // implementations
+  std::string measured;
+  std::size_t rows = 0;
+};
+[[nodiscard]] std::vector<OtherCode> other_codes(const std::vector<RowRecord>& records,
+                                                 const Budgets& budgets);
 
 // A measured row that is worse than the present budget.
 struct Raise {

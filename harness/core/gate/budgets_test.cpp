@@ -10,7 +10,7 @@ namespace {
 
 RowRecord record(const std::string& function, double ulp, const std::string& stratum = "uniform") {
   RowRecord r;
-  r.function = function;
+  r.subject = function;
   r.part = "value";
   r.type = "double";
   r.stratum = stratum;
@@ -25,7 +25,7 @@ Budgets budgets_of(const std::vector<RowRecord>& records) {
   return measured_budgets(records, 20, 1);
 }
 
-std::vector<FindingKind> kinds(const std::vector<Finding>& findings) {
+std::vector<FindingKind> kinds(const std::vector<GateFinding>& findings) {
   std::vector<FindingKind> out;
   for (const auto& f : findings) out.push_back(f.kind);
   return out;
@@ -121,6 +121,21 @@ TEST(Budgets, RoundUpToThreeDigits) {
     EXPECT_GE(up, x);
     EXPECT_LE(up, x * 1.011);
   }
+}
+
+TEST(Gate, SaysWhichCodeBudgetsAreOf) {
+  RowRecord then = record("exp", 0.512);
+  then.implementation = "glibc 2.36";
+  RowRecord now = then;
+  const Budgets budgets = budgets_of({then});
+  EXPECT_TRUE(other_codes({now}, budgets).empty());
+  now.implementation = "glibc 2.41";
+  const auto found = other_codes({now}, budgets);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].type, "double");
+  EXPECT_EQ(found[0].budgeted, "glibc 2.36");
+  EXPECT_EQ(found[0].measured, "glibc 2.41");
+  EXPECT_EQ(found[0].rows, 1U);
 }
 
 }  // namespace

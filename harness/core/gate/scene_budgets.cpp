@@ -25,7 +25,7 @@ constexpr EnergyColumn energy_columns[] = {
     {"energy error with half-step velocities", &SceneMeasurement::max_energy_error_raw,
      &SceneBudget::max_energy_error_raw}};
 
-void judge_one(const SceneMeasurement& m, const SceneBudget& budget, std::vector<Finding>& findings) {
+void judge_one(const SceneMeasurement& m, const SceneBudget& budget, std::vector<GateFinding>& findings) {
   const auto add = [&](double severity, const std::string& message) {
     findings.push_back(
         {FindingKind::regression, m.type, m.scene + " " + m.run, message, severity, {m.reproduce}});
@@ -70,9 +70,9 @@ std::string scene_budget_key(const SceneMeasurement& m) {
   return m.type + " " + m.run;
 }
 
-std::vector<Finding> judge_scenes(const std::vector<SceneMeasurement>& measured, const SceneBudgets& budgets,
-                                  MissingRecords missing) {
-  std::vector<Finding> findings;
+std::vector<GateFinding> judge_scenes(const std::vector<SceneMeasurement>& measured,
+                                      const SceneBudgets& budgets, MissingRecords missing) {
+  std::vector<GateFinding> findings;
   for (const auto& m : measured) {
     const auto scene = budgets.find(m.scene);
     const SceneBudget* budget = nullptr;
@@ -108,7 +108,7 @@ std::vector<Finding> judge_scenes(const std::vector<SceneMeasurement>& measured,
       }
     }
   }
-  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+  std::stable_sort(findings.begin(), findings.end(), [](const GateFinding& a, const GateFinding& b) {
     if (a.kind != b.kind) return a.kind < b.kind;
     return a.severity > b.severity;
   });

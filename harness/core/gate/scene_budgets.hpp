@@ -38,9 +38,9 @@ using SceneBudgets = std::map<std::string, std::map<std::string, SceneBudget>>;
 // lose two of them.
 inline constexpr double t_s_allowance = 0.1;
 
-// Finding::at holds the one command that reproduces the run.  A NaN is beyond every budget.
-[[nodiscard]] std::vector<Finding> judge_scenes(const std::vector<SceneMeasurement>& measured,
-                                                const SceneBudgets& budgets, MissingRecords missing);
+// GateFinding::at holds the one command that reproduces the run.  A NaN is beyond every budget.
+[[nodiscard]] std::vector<GateFinding> judge_scenes(const std::vector<SceneMeasurement>& measured,
+                                                    const SceneBudgets& budgets, MissingRecords missing);
 
 // The measured t_s; energy errors with a tenth above, rounded up to three digits.
 [[nodiscard]] SceneBudget measured_scene_budget(const SceneMeasurement& m);

@@ -10,7 +10,7 @@
 #include "harness/core/judging/finding.hpp"
 #include "harness/core/judging/native_bits.hpp"
 #include "harness/core/judging/ordinary_scan.hpp"
-#include "harness/core/subject/type_engine.hpp"
+#include "harness/core/records/stage.hpp"
 
 namespace ulpgate {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/core/judging/tally.hpp"
-#include "harness/core/subject/type_engine.hpp"
+#include "harness/core/records/row_hint.hpp"
 #include "reference/condition/condition.hpp"
 #include "reference/condition/condition_bound.hpp"
 
@@ -88,10 +88,7 @@ class RowTally {
     double ratio = condition > 1 ? error / condition : error;
     if (ratio != ratio) ratio = 0;
     parts_[part].raise_error_over_condition(ratio);
-    auto& hint = hint_.error_over_condition[part];
-    double seen = hint.load(std::memory_order_relaxed);
-    while (ratio > seen && !hint.compare_exchange_weak(seen, ratio, std::memory_order_relaxed)) {
-    }
+    hint_.raise_error_over_condition(part, ratio);
   }
 
   const FunctionInfo& function_;

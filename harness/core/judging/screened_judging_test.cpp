@@ -6,29 +6,27 @@
 #include <cmath>
 
 #include "harness/core/records/recorded_figures.hpp"
-#include "harness/core/subject/type_engine.hpp"
+#include "harness/core/subject/registry.hpp"
 #include "kernels/math/function_table.hpp"
 
 namespace ulpgate {
 namespace {
 
 TEST(ScreenedJudging, GivesTheRecordsOfTheFullReference) {
-  for (const auto& engine : all_engines()) {
-    for (const auto& f : all_functions()) {
-      const ArgumentList edges = edge_arguments(f, engine->descriptor().format);
-      for (const StratumSource& source :
-           {StratumSource{Stratum::uniform, 7, 40, nullptr}, StratumSource{Stratum::binades, 7, 20, nullptr},
-            StratumSource{Stratum::edges, 7, std::min<std::uint64_t>(edges.size(), 100), &edges}}) {
-        RowHint hint(f.parts);
-        RowHint other_hint(f.parts);
-        const auto full = engine->evaluate(f, source, 0, source.count, ReferenceMode::full, hint);
-        const auto screened =
-            engine->evaluate(f, source, 0, source.count, ReferenceMode::screened, other_hint);
-        for (std::size_t part = 0; part < full.size(); ++part) {
-          EXPECT_EQ(recorded_figures(full[part]), recorded_figures(screened[part]))
-              << f.name << " part " << part << " " << engine->descriptor().token << " "
-              << name_of(source.stratum);
-        }
+  for (const auto& subject : all_subjects()) {
+    if (subject->info().kind != SubjectKind::function) continue;
+    const ArgumentList edges = subject->listed(Stratum::edges);
+    for (const StratumSource& source :
+         {StratumSource{Stratum::uniform, 7, 40, nullptr}, StratumSource{Stratum::binades, 7, 20, nullptr},
+          StratumSource{Stratum::edges, 7, std::min<std::uint64_t>(edges.size(), 100), &edges}}) {
+      RowHint hint(subject->info().parts.size());
+      RowHint other_hint(subject->info().parts.size());
+      const auto full = subject->evaluate(source, 0, source.count, ReferenceMode::full, hint);
+      const auto screened = subject->evaluate(source, 0, source.count, ReferenceMode::screened, other_hint);
+      for (std::size_t part = 0; part < full.size(); ++part) {
+        EXPECT_EQ(recorded_figures(full[part]), recorded_figures(screened[part]))
+            << subject->name() << " part " << part << " " << subject->type().token << " "
+            << name_of(source.stratum);
       }
     }
   }
@@ -37,12 +35,11 @@ TEST(ScreenedJudging, GivesTheRecordsOfTheFullReference) {
 // Four in five points have an erf that is -1 or 1 to more bits than the MPFR stage has: their tiny errors tie
 // for the maximum until a preview has found a larger one.
 TEST(ScreenedJudging, APlateauOfTinyErrorsDoesNotClimb) {
-  const TypeEngine* engine = find_engine("mpfr62");
-  if (engine == nullptr) GTEST_SKIP() << "no mpfr62 in this build";
-  const FunctionInfo& erf = info_of(FunctionId::erf);
+  const Subject* erf = find_subject("erf", "mpfr62");
+  if (erf == nullptr) GTEST_SKIP() << "no mpfr62 in this build";
   const StratumSource source{Stratum::stratified, 1, 2000, nullptr};
   RowHint hint(1);
-  static_cast<void>(engine->evaluate(erf, source, 0, source.count, ReferenceMode::screened, hint));
+  static_cast<void>(erf->evaluate(source, 0, source.count, ReferenceMode::screened, hint));
   EXPECT_GE(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 1950U);
 }
 
@@ -116,10 +113,10 @@ TEST(ScreenedJudging, ALyingStageIsFoundAndTheArgumentNamed) {
 }
 
 TEST(ScreenedJudging, CheapStagesDecideNearlyEverySample) {
-  const TypeEngine& engine = *find_engine("double");
   RowHint hint(1);
-  const auto summaries = engine.evaluate(info_of(FunctionId::exp), {Stratum::uniform, 1, 20000, nullptr}, 0,
-                                         20000, ReferenceMode::screened, hint);
+  const auto summaries =
+      find_subject("exp", "double")
+          ->evaluate({Stratum::uniform, 1, 20000, nullptr}, 0, 20000, ReferenceMode::screened, hint);
   std::uint64_t all = 0;
   for (const auto& n : hint.decided) all += n;
   EXPECT_EQ(all, 20000U);

@@ -21,8 +21,8 @@ std::vector<HiddenDouble> audit_kernels(const dem::KernelTable<AuditedReal>& tab
     std::vector<AuditedReal> outputs(kernel.output_components());
     (void)AuditedReal::take_found();
     // A literal may stand on a branch: states of every kind are tried.
-    for (const auto& stratum : all_state_strata) {
-      const States<Value> states(kernel, {stratum.id, 1, states_per_stratum});
+    for (const auto& stratum : kernel_strata) {
+      const States<Value> states(kernel, {stratum.id, 1, states_per_stratum, nullptr});
       for (std::uint64_t k = 0; k < states_per_stratum; ++k) {
         states.make(k, values.data());
         inputs.clear();

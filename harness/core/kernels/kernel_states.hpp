@@ -3,7 +3,6 @@
 #pragma once
 
 #include "harness/core/arguments/sampling.hpp"
-#include "harness/core/kernels/kernel_engine.hpp"
 #include "kernels/dem/table/kernel_info.hpp"
 
 namespace ulpgate {
@@ -14,7 +13,7 @@ class States {
   using Vec3 = dem::Vec3<Real>;
   using Quaternion = dem::Quaternion<Real>;
 
-  States(const dem::KernelInfo& kernel, const StateSource& source)
+  States(const dem::KernelInfo& kernel, const StratumSource& source)
       : kernel_(kernel), source_(source), stream_(source.seed, kernel.name, name_of(source.stratum)) {}
 
   // Writes the inputs of the kernel in state k to out.
@@ -42,14 +41,14 @@ class States {
    private:
     static constexpr int digits = std::numeric_limits<Real>::digits;
 
-    [[nodiscard]] bool is(StateStratum stratum) const { return states_.source_.stratum == stratum; }
-    [[nodiscard]] bool is_wide() const { return is(StateStratum::uniform) || is(StateStratum::stratified); }
+    [[nodiscard]] bool is(Stratum stratum) const { return states_.source_.stratum == stratum; }
+    [[nodiscard]] bool is_wide() const { return is(Stratum::uniform) || is(Stratum::stratified); }
 
     // In [0, 1].
     Real fraction() {
       std::uint64_t words[detail::words_per_value<Real>];
       states_.stream_.fill(k_, draw_, words);
-      if (is(StateStratum::stratified)) {
+      if (is(Stratum::stratified)) {
         const std::uint64_t n = states_.source_.count;
         detail::into_cell(words, detail::permuted_cell(k_, detail::cell_stride(draw_, n), n), n);
       }
@@ -98,7 +97,7 @@ class States {
 
     void make_bodies(dem::KernelState<Real>& s) {
       s.r1 = power(-10, -3);
-      s.r2 = is(StateStratum::ratio) ? Real(s.r1 * power(0, 40)) : Real(s.r1 * between(Real(1) / 2, Real(2)));
+      s.r2 = is(Stratum::ratio) ? Real(s.r1 * power(0, 40)) : Real(s.r1 * between(Real(1) / 2, Real(2)));
       const Real smaller = s.r1 < s.r2 ? s.r1 : s.r2;
       s.overlap = smaller * relative_overlap();
       s.rest_overlap = s.overlap * between(Real(0), Real(2));
@@ -106,7 +105,7 @@ class States {
       s.normal_old = s.normal + turn() * direction();
       s.normal_old = s.normal_old / dem::norm(s.normal_old);
       s.x1 = vector();
-      if (is(StateStratum::far)) s.x1 = s.x1 + power(20, 40) * direction();
+      if (is(Stratum::far)) s.x1 = s.x1 + power(20, 40) * direction();
       s.x2 = s.x1 + ((s.r1 + s.r2) - s.overlap) * s.normal;
       s.arm1 = (s.r1 - s.overlap / 2) * s.normal;
       s.arm2 = -((s.r2 - s.overlap / 2) * s.normal);
@@ -119,30 +118,30 @@ class States {
 
     // Overlap / smaller radius.
     Real relative_overlap() {
-      if (is(StateStratum::touching)) return power(2 - digits, -20 < 2 - digits ? 3 - digits : -20);
-      if (is(StateStratum::deep)) return between(Real(1) / 10, Real(9) / 10);
+      if (is(Stratum::touching)) return power(2 - digits, -20 < 2 - digits ? 3 - digits : -20);
+      if (is(Stratum::deep)) return between(Real(1) / 10, Real(9) / 10);
       if (is_wide()) return between(Real(0), Real(1) / 4);
       return power(-20, -7);
     }
     // Size of the change of a direction in one step, rad.
     Real turn() {
-      if (is(StateStratum::parallel)) return power(-digits - 4, -digits / 2);
+      if (is(Stratum::parallel)) return power(-digits - 4, -digits / 2);
       if (is_wide()) return fraction();
       return power(-16, -6);
     }
 
     void make_motion(dem::KernelState<Real>& s) {
-      const Real speed = is(StateStratum::slow) ? power(-60, -20) : is_wide() ? power(-10, 6) : Real(1);
+      const Real speed = is(Stratum::slow) ? power(-60, -20) : is_wide() ? power(-10, 6) : Real(1);
       s.v1 = speed * vector();
       s.v2 = speed * vector();
       s.w1 = (speed * 10) * vector();
       s.w2 = (speed * 10) * vector();
       s.velocity = speed * vector();
-      if (is(StateStratum::grazing)) {
+      if (is(Stratum::grazing)) {
         s.velocity = speed * (across(s.normal) + power(-digits, -20) * s.normal);
         s.v2 = s.v1 + s.velocity;
       }
-      if (is(StateStratum::cone)) s.velocity = (speed * signed_one()) * s.normal;
+      if (is(Stratum::cone)) s.velocity = (speed * signed_one()) * s.normal;
       s.closing_speed = -dem::dot(s.normal, s.velocity);
       s.dt = power(-24, -13);
       s.force = power(-6, 10) * vector();
@@ -181,7 +180,7 @@ class States {
     // Across the old normal; on the cone in the stratum of that name.
     void make_shear(dem::KernelState<Real>& s) {
       const Real limit = (s.kn * s.overlap) * s.tan_friction;
-      if (is(StateStratum::cone)) {
+      if (is(Stratum::cone)) {
         s.shear = limit * across(s.normal);
       } else {
         s.shear = (limit * between(Real(0), Real(12) / 10)) * across(s.normal_old);
@@ -220,7 +219,7 @@ class States {
   };
 
   const dem::KernelInfo& kernel_;
-  StateSource source_;
+  StratumSource source_;
   RandomStream stream_;
 };
 

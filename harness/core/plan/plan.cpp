@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "harness/core/arguments/random_words.hpp"
+#include "harness/core/subject/registry.hpp"
 
 namespace ulpgate {
 
@@ -24,57 +25,59 @@ ArgumentList copy(const ArgumentList& list) {
   return out;
 }
 
+bool holds(const std::vector<Stratum>& strata, Stratum s) {
+  return std::ranges::find(strata, s) != strata.end();
+}
+
 std::string plan_text(const PlanRequest& r) {
-  std::vector<std::string_view> functions;
+  const bool functions = r.kind == SubjectKind::function;
   std::vector<std::string_view> strata;
-  for (const auto id : r.functions) functions.push_back(info_of(id).name);
   for (const auto s : r.strata) strata.push_back(name_of(s));
   std::string units = fmt::format("{}", unit_size);
-  if (std::ranges::find(r.strata, Stratum::exhaustive) != r.strata.end())
-    units += fmt::format(" exhaustive {}", exhaustive_unit_size);
+  if (holds(r.strata, Stratum::exhaustive)) units += fmt::format(" exhaustive {}", exhaustive_unit_size);
+  const bool undivided =
+      functions && holds(r.strata, Stratum::uniform) != holds(r.strata, Stratum::stratified);
   // Versions of the rules that make arguments and that record errors: raise them when they change.
-  return fmt::format(
-      "ulpgate math plan\narguments 1\nerrors 3\nunit {}\nseed {}\nsamples {}\ntypes {}\nstrata "
-      "{}\nfunctions {}\n"
-      "reference full\nworst_cases {:016x}\n",
-      units, r.seed, r.samples, fmt::join(r.types, ","), fmt::join(strata, ","), fmt::join(functions, ","),
-      fnv1a(r.worst_cases_text));
+  std::string text = fmt::format(
+      "ulpgate {} plan\n{} 1\nerrors 3\nunit {}\nseed {}\nsamples {}{}\ntypes {}\nstrata {}\n{} {}\n"
+      "reference full\n",
+      functions ? "math" : "kernel", functions ? "arguments" : "states", units, r.seed, r.samples,
+      undivided ? " undivided" : "", fmt::join(r.types, ","), fmt::join(strata, ","),
+      functions ? "functions" : "kernels", fmt::join(r.subjects, ","));
+  if (functions) text += fmt::format("worst_cases {:016x}\n", fnv1a(r.worst_cases_text));
+  return text;
 }
 
 }  // namespace
 
-bool Plan::can_exhaust(const FunctionInfo& f, std::string_view type) {
-  return type == "float" && f.function_class == FunctionClass::real && f.arity == 1;
-}
-
-std::uint64_t Plan::drawn_count(Stratum s, std::uint64_t samples) {
+std::uint64_t drawn_count(SubjectKind kind, Stratum s, std::uint64_t samples,
+                          const std::vector<Stratum>& chosen) {
+  if (kind == SubjectKind::kernel) return samples;
+  const bool shared = holds(chosen, Stratum::uniform) && holds(chosen, Stratum::stratified);
+  if (s != Stratum::binades && !shared) return samples;
   return s == Stratum::uniform ? samples - samples / 2 : samples / 2;
 }
 
 Plan::Plan(PlanRequest request, const WorstCases& worst) : request_(std::move(request)) {
   for (const auto& token : request_.types) {
-    const TypeEngine* engine = find_engine(token);
-    const FloatFormat format = engine->descriptor().format;
-    for (const auto id : request_.functions) {
-      const FunctionInfo& f = info_of(id);
+    for (const auto& name : request_.subjects) {
+      const Subject* subject = find_subject(name, token);
       for (const auto s : request_.strata) {
         StratumSource source{s, request_.seed, 0, nullptr};
         if (s == Stratum::exhaustive) {
-          source.count = can_exhaust(f, token) ? exhaustive_count : 0;
+          source.count = subject->can_exhaust() ? exhaustive_count : 0;
         } else if (is_drawn(s)) {
-          source.count = drawn_count(s, request_.samples);
+          source.count = drawn_count(request_.kind, s, request_.samples, request_.strata);
         } else {
-          ArgumentList list;
-          if (s == Stratum::edges) list = edge_arguments(f, format);
-          if (s == Stratum::hard) list = hard_arguments(f, format);
+          ArgumentList list = subject->listed(s);
           if (s == Stratum::worst) {
-            const auto it = worst.find({id, token});
+            const auto it = worst.find({name, token});
             if (it != worst.end()) list = copy(it->second);
           }
           source.count = list.size();
-          source.list = &(lists_[{id, token, s}] = std::move(list));
+          source.list = &(lists_[{name, token, s}] = std::move(list));
         }
-        if (source.count > 0) rows_.push_back({engine, f, source});
+        if (source.count > 0) rows_.push_back({subject, source});
       }
     }
   }

@@ -6,26 +6,27 @@
 #include <string>
 #include <vector>
 
-#include "harness/core/subject/type_engine.hpp"
+#include "harness/core/records/row_record.hpp"
+#include "harness/core/subject/subject.hpp"
 
 namespace ulpgate {
 
-// Known worst cases: (function, type token) -> exact arguments.
-using WorstCases = std::map<std::pair<FunctionId, std::string>, ArgumentList>;
+// Known worst cases: (subject, type token) -> exact arguments.
+using WorstCases = std::map<std::pair<std::string, std::string>, ArgumentList>;
 
 struct PlanRequest {
-  std::vector<FunctionId> functions;
-  std::vector<std::string> types;  // tokens of built types
+  SubjectKind kind = SubjectKind::function;
+  std::vector<std::string> subjects;  // names
+  std::vector<std::string> types;     // tokens of built types
   std::vector<Stratum> strata;
   std::uint64_t samples = 20000;
   std::uint64_t seed = 1;
   std::string worst_cases_text;  // canonical text of the worst cases that apply, part of the plan's identity
 };
 
-// One row: a function of a type over a stratum.
+// One row: a subject over a stratum.
 struct PlanRow {
-  const TypeEngine* engine;
-  FunctionInfo function;
+  const Subject* subject;
   StratumSource source;
 };
 
@@ -45,20 +46,20 @@ class Plan {
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] const std::string& hash() const { return hash_; }
 
-  // Whether the function has an exhaustive row in the type: real functions of one argument, of float.
-  [[nodiscard]] static bool can_exhaust(const FunctionInfo& f, std::string_view type);
-  // Points of a drawn stratum: uniform and stratified share --samples in equal halves (uniform gets the odd
-  // one), binades get as many as a half.
-  [[nodiscard]] static std::uint64_t drawn_count(Stratum s, std::uint64_t samples);
-
  private:
   PlanRequest request_;
   std::vector<PlanRow> rows_;
   std::vector<WorkUnit> units_;
-  std::map<std::tuple<FunctionId, std::string, Stratum>, ArgumentList> lists_;
+  std::map<std::tuple<std::string, std::string, Stratum>, ArgumentList> lists_;
   std::string text_;
   std::string hash_;
 };
+
+// Points of a drawn stratum of functions where a run asks for `samples`: uniform and stratified share them in
+// equal halves (uniform gets the odd one), or the one that is chosen alone gets all; binades get as many as a
+// half.  A stratum of kernels has as many states as were asked for.
+[[nodiscard]] std::uint64_t drawn_count(SubjectKind kind, Stratum s, std::uint64_t samples,
+                                        const std::vector<Stratum>& chosen);
 
 // Units have a fixed size: it bounds what a killed run loses and how finely shards can be dealt.
 inline constexpr std::uint64_t unit_size = 2048;
@@ -67,5 +68,9 @@ inline constexpr std::uint64_t exhaustive_unit_size = std::uint64_t{1} << 20U;
 [[nodiscard]] constexpr std::uint64_t unit_size_of(Stratum s) {
   return s == Stratum::exhaustive ? exhaustive_unit_size : unit_size;
 }
+
+// One record per part of a row; looks the points up that the summaries name.
+[[nodiscard]] std::vector<RowRecord> finish_row(const Plan& plan, const PlanRow& row,
+                                                const std::vector<Summary>& summaries);
 
 }  // namespace ulpgate

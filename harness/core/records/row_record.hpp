@@ -4,9 +4,10 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "harness/core/plan/plan.hpp"
+#include "harness/core/arguments/strata.hpp"
 #include "harness/core/records/summary.hpp"
 
 namespace ulpgate {
@@ -34,10 +35,11 @@ inline constexpr double stability_limit = 16;
 }
 
 struct RowRecord {
-  std::string function;
+  std::string subject;  // name of the function or kernel
   std::string part;
   std::string type;
-  std::string function_class;
+  std::string subject_class;
+  std::string implementation;  // the code that was measured, with its version
   std::string stratum;
   std::uint64_t planned = 0;
   std::uint64_t seed = 0;
@@ -48,17 +50,13 @@ struct RowRecord {
   RowPoints points;
 
   // Sort key of the records file.
-  [[nodiscard]] auto key() const { return std::tie(function, part, type, stratum); }
+  [[nodiscard]] auto key() const { return std::tie(subject, part, type, stratum, implementation); }
 };
 
 // Whether every value of the type was an argument: the largest error is then proven for this libm.
 [[nodiscard]] inline bool is_proof(const RowRecord& r) {
   return r.stratum == name_of(Stratum::exhaustive) && r.summary.samples == exhaustive_count;
 }
-
-// One record per part; looks the points up that the summaries name.
-[[nodiscard]] std::vector<RowRecord> finish_row(const Plan& plan, const PlanRow& row,
-                                                const std::vector<Summary>& summaries);
 
 // Adds `other`, a record of the same row from another shard.
 void merge_record(RowRecord& into, const RowRecord& other);

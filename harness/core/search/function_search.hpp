@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reference/functions/function_info.hpp"
+#include "harness/core/subject/subject.hpp"
 #include "reference/types/mpfr_value.hpp"
 #include "reference/ulp/ulp.hpp"
 
@@ -45,9 +45,8 @@ class FunctionSearch {
 };
 
 // Real and complex functions; special functions have integer arguments and are not searched.
-[[nodiscard]] bool can_search(const FunctionInfo& f);
-// `token` is a type that was built, and can_search(f).
-[[nodiscard]] std::unique_ptr<FunctionSearch> make_search(std::string_view token, const FunctionInfo& f,
-                                                          std::uint64_t seed);
+[[nodiscard]] bool can_search(const Subject& subject);
+// can_search(subject) must hold.
+[[nodiscard]] std::unique_ptr<FunctionSearch> make_search(const Subject& subject, std::uint64_t seed);
 
 }  // namespace ulpgate

@@ -1,6 +1,7 @@
 // The search of a function in one type: target and portfolio together; one translation unit per type.
 #pragma once
 
+#include "harness/core/functions/subject_call.hpp"
 #include "harness/core/search/function_search.hpp"
 #include "harness/core/search/function_target.hpp"
 
@@ -11,10 +12,8 @@ class TypedSearch final : public FunctionSearch {
  public:
   using Position = PositionOf<Real>;
 
-  TypedSearch(const FunctionInfo& f, std::uint64_t seed)
-      : target_(f),
-        search_(target_, target_.ordinary_boxes(), target_.seeds(hard_arguments(f, float_format<Real>())),
-                seed, size(f)) {}
+  TypedSearch(const Subject& subject, std::uint64_t seed)
+      : TypedSearch(subject, info_of(find_function(subject.name())->id), seed) {}
 
   std::size_t begin_round(std::uint64_t most) override { return search_.begin_round(most); }
   void run_batch(std::size_t batch) override { search_.run_batch(batch); }
@@ -41,6 +40,11 @@ class TypedSearch final : public FunctionSearch {
   }
 
  private:
+  TypedSearch(const Subject& subject, const FunctionInfo& f, std::uint64_t seed)
+      : target_(f, call_of<Real>(subject)),
+        search_(target_, target_.ordinary_boxes(), target_.seeds(subject.listed(Stratum::hard)), seed,
+                size(f)) {}
+
   // Rounds of a few hundredths of a second: what is found steers what is tried next.
   static SearchSize size(const FunctionInfo& f) {
     if (f.function_class != FunctionClass::real) return {1U << 12U};

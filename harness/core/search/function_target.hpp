@@ -49,11 +49,11 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
   using Position = PositionOf<Real>;
   using Point = SearchPoint<Position>;
 
-  explicit FunctionTarget(const FunctionInfo& f)
+  FunctionTarget(const FunctionInfo& f, BatchFunction<Real> call)
       : function_(f),
         exponents_(sampled_exponents(f, float_format<Real>())),
         positions_(exponents_.least),
-        call_(function_table<Real>()[static_cast<std::size_t>(f.id)]) {
+        call_(call) {
     if constexpr (has_wide) wide_ = function_table<Wide>()[static_cast<std::size_t>(f.id)];
   }
 

@@ -8,7 +8,7 @@
 #include "harness/core/search/function_search.hpp"
 #include "harness/core/search/function_target.hpp"
 #include "harness/core/search/search_positions.hpp"
-#include "harness/core/subject/type_engine.hpp"
+#include "harness/core/subject/registry.hpp"
 
 namespace ulpgate {
 namespace {
@@ -57,7 +57,8 @@ TYPED_TEST(PositionsOf, AreInOrderAndExactBothWays) {
 
 TEST(Positions, OfTheWholeOfBinary128FitTheirWidth) {
 #ifdef ULPGATE_HAVE_FLOAT128
-  const FunctionTarget<Float128Real, NoWideType> target(info_of(FunctionId::sin));
+  const FunctionTarget<Float128Real, NoWideType> target(
+      info_of(FunctionId::sin), function_table<Float128Real>()[static_cast<std::size_t>(FunctionId::sin)]);
   const auto box = target.domain();
   EXPECT_EQ(bit_length(width_of(box.low[0], box.high[0])), 128);
   SearchRandom random(1);
@@ -180,27 +181,28 @@ TEST(Search, WrongEstimatesAreFoundOut) {
 }
 
 TEST(FunctionSearch, HuntsInEveryTypeAndWithSeveralArguments) {
-  for (const auto& engine : all_engines()) {
-    for (const auto id : {FunctionId::cbrt, FunctionId::pow, FunctionId::cexp}) {
-      const auto search = make_search(engine->descriptor().token, info_of(id), 1);
+  for (const auto& type : all_types()) {
+    for (const auto* name : {"cbrt", "pow", "cexp"}) {
+      const Subject& subject = *find_subject(name, type.token);
+      const auto search = make_search(subject, 1);
       while (search->evaluations() < 300) {
         const std::size_t n = search->begin_round(300 - search->evaluations());
         for (std::size_t i = 0; i < n; ++i) search->run_batch(i);
         search->end_round();
       }
       EXPECT_EQ(search->evaluations(), 300U);
-      EXPECT_GT(search->best_error_ulp(), 0) << info_of(id).name << " " << engine->descriptor().token;
-      const Point point = engine->point(info_of(id), search->best().args);
+      EXPECT_GT(search->best_error_ulp(), 0) << name << " " << type.token;
+      const Point point = subject.point(search->best().args);
       double error = 0;
       for (const auto& part : point.parts) error = std::max(error, part.judgement.error.value);
       EXPECT_EQ(error, search->best_error_ulp()) << "what is reported is what `ulpgate at` shows";
     }
   }
-  EXPECT_FALSE(can_search(info_of(FunctionId::factorial)));
+  EXPECT_FALSE(can_search(*find_subject("factorial", "double")));
 }
 
 TEST(FunctionSearch, BeatsRandomSamplingInDouble) {
-  const auto search = make_search("double", info_of(FunctionId::erfc), 1);
+  const auto search = make_search(*find_subject("erfc", "double"), 1);
   while (search->evaluations() < 400000) {
     const std::size_t n = search->begin_round(400000 - search->evaluations());
     for (std::size_t i = 0; i < n; ++i) search->run_batch(i);

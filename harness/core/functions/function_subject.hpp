@@ -1,12 +1,15 @@
-// Engine<Real>: the implementation of TypeEngine, instantiated in one translation unit per type.
+// FunctionSubject<Real>: a math function in one Real type as a subject; instantiated in one translation unit
+// per type.
 #pragma once
 
 #include <algorithm>
 
-#include "harness/core/functions/oracle_defects.hpp"
+#include "harness/core/arguments/sampling.hpp"
+#include "harness/core/functions/subject_call.hpp"
 #include "harness/core/judging/screened_judging.hpp"
-#include "harness/core/subject/type_engine.hpp"
+#include "harness/core/subject/registry.hpp"
 #include "kernels/math/function_table.hpp"
+#include "kernels/math/implementation.hpp"
 #include "reference/text/text.hpp"
 
 namespace ulpgate {
@@ -22,49 +25,60 @@ namespace ulpgate {
 // Real.
 inline constexpr double oracle_tolerance_ulp = 0x1p-16;
 
+[[nodiscard]] SubjectInfo subject_info(const FunctionInfo& f, RealFamily family);
+
 template <RealType Real>
-class Engine final : public TypeEngine {
+class FunctionSubject final : public Subject {
  public:
   using Reference = RealHP<4, Real>;
 
-  Engine(RealDescriptor descriptor, FunctionTable<Real> functions, const FunctionTable<Reference>& family)
-      : descriptor_(std::move(descriptor)), functions_(std::move(functions)), family_(family) {}
+  // `evaluate` is the code under test, `family` the same function in RealHP<4>.
+  FunctionSubject(const RealDescriptor& type, const FunctionInfo& f, BatchFunction<Real> evaluate,
+                  BatchFunction<Reference> family)
+      : Subject(subject_info(f, family_of<Real>()), type), function_(f), call_(evaluate), family_(family) {}
 
-  [[nodiscard]] const RealDescriptor& descriptor() const override { return descriptor_; }
+  [[nodiscard]] BatchFunction<Real> call() const { return call_; }
 
-  [[nodiscard]] std::vector<Summary> evaluate(const FunctionInfo& f, const StratumSource& source,
-                                              std::uint64_t first, std::uint64_t last, ReferenceMode mode,
+  [[nodiscard]] ArgumentList listed(Stratum s) const override {
+    if (s == Stratum::edges) return edge_arguments(function_, type().format);
+    if (s == Stratum::hard) return hard_arguments(function_, type().format);
+    return {};
+  }
+  [[nodiscard]] bool can_exhaust() const override {
+    return std::same_as<Real, float> && function_.function_class == FunctionClass::real &&
+           function_.arity == 1;
+  }
+
+  [[nodiscard]] std::vector<Summary> evaluate(const StratumSource& source, std::uint64_t first,
+                                              std::uint64_t last, ReferenceMode mode,
                                               RowHint& hint) const override {
-    if (mode == ReferenceMode::screened) preview(f, source, first, last, hint);
-    RowTally<Real> tally(f, hint);
+    if (mode == ReferenceMode::screened) preview(source, first, last, hint);
+    RowTally<Real> tally(function_, hint);
     if (mode == ReferenceMode::full) {
-      FullJudging<Real> judging(f);
-      run(f, source, first, last, judging, tally);
+      FullJudging<Real> judging(function_);
+      run(source, first, last, judging, tally);
       hint.decided[static_cast<std::size_t>(Stage::full)] += last - first;
     } else {
-      ScreenedJudging<Real> judging(f);
-      run(f, source, first, last, judging, tally);
+      ScreenedJudging<Real> judging(function_);
+      run(source, first, last, judging, tally);
       for (std::size_t s = 0; s < stage_count; ++s) hint.decided[s] += judging.decided()[s];
     }
     return tally.take();
   }
 
-  [[nodiscard]] Point point(const FunctionInfo& f, const StratumSource& source,
-                            std::uint64_t k) const override {
-    std::vector<Real> args(static_cast<std::size_t>(f.arity));
-    Arguments<Real>(f, source).make(k, args.data());
-    return describe(f, args);
+  [[nodiscard]] Point point(const StratumSource& source, std::uint64_t k) const override {
+    std::vector<Real> args(static_cast<std::size_t>(function_.arity));
+    Arguments<Real>(function_, source).make(k, args.data());
+    return describe_point(args);
   }
-
-  [[nodiscard]] Point point(const FunctionInfo& f, const std::vector<MpfrValue>& values) const override {
+  [[nodiscard]] Point point(const std::vector<MpfrValue>& values) const override {
     std::vector<Real> args;
     for (const auto& v : values) args.push_back(from_mpfr<Real>(v));
-    return describe(f, args);
+    return describe_point(args);
   }
 
-  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(const FunctionInfo& f,
-                                                        std::size_t count) const override {
-    return std::make_unique<Timed>(f, function(f), count);
+  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(std::size_t count) const override {
+    return std::make_unique<Timed>(function_, call_, count);
   }
 
  private:
@@ -89,29 +103,29 @@ class Engine final : public TypeEngine {
 
   // Tells the hint of a row of which nothing is known the largest error of a few points all over the unit.
   // Where a function is next to a constant all errors are tiny, and each would climb for being the maximum.
-  void preview(const FunctionInfo& f, const StratumSource& source, std::uint64_t first, std::uint64_t last,
-               RowHint& hint) const {
+  void preview(const StratumSource& source, std::uint64_t first, std::uint64_t last, RowHint& hint) const {
     constexpr std::uint64_t points = 32;
-    if (RowTally<Real>(f, hint).knows_maxima() || last - first < 8 * points) return;
+    if (RowTally<Real>(function_, hint).knows_maxima() || last - first < 8 * points) return;
     // The unit meets these points again and counts them then, which goes for their conditions as well.
-    RowHint found(f.parts);
-    RowTally<Real> tally(f, found);
-    ScreenedJudging<Real> judging(f);
+    const auto parts = static_cast<std::size_t>(function_.parts);
+    RowHint found(parts);
+    RowTally<Real> tally(function_, found);
+    ScreenedJudging<Real> judging(function_);
     for (std::uint64_t j = 0; j < points; ++j) {
       const std::uint64_t k = first + (last - first) * (2 * j + 1) / (2 * points);
-      run(f, source, k, k + 1, judging, tally);
+      run(source, k, k + 1, judging, tally);
     }
     static_cast<void>(tally.take());
-    for (std::size_t part = 0; part < static_cast<std::size_t>(f.parts); ++part)
-      hint.raise_max_error(part, found.max_error(part));
+    for (std::size_t part = 0; part < parts; ++part) hint.raise_max_error(part, found.max_error(part));
   }
 
   // All buffers are those of the batch: nothing is allocated a sample, and the one indirect call is a
   // batch's.
   template <class JudgingOfUnit>
-  void run(const FunctionInfo& f, const StratumSource& source, std::uint64_t first, std::uint64_t last,
-           JudgingOfUnit& judging, RowTally<Real>& tally) const {
+  void run(const StratumSource& source, std::uint64_t first, std::uint64_t last, JudgingOfUnit& judging,
+           RowTally<Real>& tally) const {
     constexpr std::size_t batch_size = 256;
+    const FunctionInfo& f = function_;
     const auto arity = static_cast<std::size_t>(f.arity);
     const auto parts = static_cast<std::size_t>(f.parts);
     const Arguments<Real> arguments(f, source);
@@ -127,31 +141,27 @@ class Engine final : public TypeEngine {
       n = std::min<std::uint64_t>(most, last - k);
       arguments.make_all(k, n, args.data());
       std::fill(threw.begin(), threw.end(), std::uint8_t{0});
-      function(f)(args.data(), results.data(), threw.data(), n);
+      call_(args.data(), results.data(), threw.data(), n);
       judging.judge(
           Batch<Real>{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}, k}, tally);
       for (std::size_t i = (stride - k % stride) % stride; i < n; i += stride)
-        compare_oracles(f, &args[i * arity], k + i, tally);
+        compare_oracles(&args[i * arity], k + i, tally);
     }
   }
 
-  [[nodiscard]] BatchFunction<Real> function(const FunctionInfo& f) const {
-    return functions_[static_cast<std::size_t>(f.id)];
-  }
-
-  void compare_oracles(const FunctionInfo& f, const Real* args, std::uint64_t k,
-                       RowTally<Real>& tally) const {
+  void compare_oracles(const Real* args, std::uint64_t k, RowTally<Real>& tally) const {
+    const FunctionInfo& f = function_;
     const auto parts = static_cast<std::size_t>(f.parts);
     std::vector<Reference> wide;
     for (int j = 0; j < f.arity; ++j) wide.push_back(widen<Reference>(args[j]));
     std::vector<Reference> family(parts);
     std::uint8_t threw = 0;
-    family_[static_cast<std::size_t>(f.id)](wide.data(), family.data(), &threw, 1);
+    family_(wide.data(), family.data(), &threw, 1);
     const auto values = exact_arguments(f, args);
     std::vector<MpfrValue> exact;
-    for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(descriptor_.reference_bits);
+    for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(type().reference_bits);
     exact_value(f, values, exact);
-    MpfrValue other(descriptor_.reference_bits);
+    MpfrValue other(type().reference_bits);
     for (std::size_t j = 0; j < parts; ++j) {
       OracleComparison& comparison = tally.oracle(j);
       ++comparison.compared;
@@ -159,17 +169,17 @@ class Engine final : public TypeEngine {
       // Beyond Real's range both mean the same: compare what Real would make of them.
       const bool in_range =
           mpfr_zero_p(exact[j].get()) != 0 ||
-          (mpfr_regular_p(exact[j].get()) && binade(exact[j]) <= descriptor_.format.exponent_max &&
-           binade(exact[j]) >= descriptor_.format.exponent_least());
+          (mpfr_regular_p(exact[j].get()) && binade(exact[j]) <= type().format.exponent_max &&
+           binade(exact[j]) >= type().format.exponent_least());
       if (!in_range) {
-        round_to_format(other, descriptor_.format);
-        round_to_format(exact[j], descriptor_.format);
+        round_to_format(other, type().format);
+        round_to_format(exact[j], type().format);
       }
       double difference = std::numeric_limits<double>::infinity();
       if (threw != 0) {
         // No value at all: the largest difference there is.
       } else if (mpfr_number_p(other.get()) && mpfr_number_p(exact[j].get())) {
-        difference = ulp_error(other, exact[j], descriptor_.format).value;
+        difference = ulp_error(other, exact[j], type().format).value;
       } else if ((mpfr_nan_p(other.get()) && mpfr_nan_p(exact[j].get())) ||
                  (mpfr_inf_p(other.get()) && mpfr_equal_p(other.get(), exact[j].get()))) {
         difference = 0;
@@ -179,37 +189,56 @@ class Engine final : public TypeEngine {
     }
   }
 
-  [[nodiscard]] Point describe(const FunctionInfo& f, const std::vector<Real>& args) const {
+  [[nodiscard]] Point describe_point(const std::vector<Real>& args) const {
+    const FunctionInfo& f = function_;
     const auto parts = static_cast<std::size_t>(f.parts);
     std::vector<Real> results(parts);
     std::uint8_t threw = 0;
-    function(f)(args.data(), results.data(), &threw, 1);
+    call_(args.data(), results.data(), &threw, 1);
     const Batch<Real> batch{f, args, results, {&threw, 1}};
     FullJudging<Real> judging(f);
     judging.load(batch, 0);
     const auto values = exact_arguments(f, args.data());
     std::vector<MpfrValue> exact;
-    for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(descriptor_.reference_bits);
+    for (std::size_t j = 0; j < parts; ++j) exact.emplace_back(type().reference_bits);
     exact_value(f, values, exact);
     Point p;
     for (const auto& x : args) {
       p.args_hex.push_back(to_hexfloat(x));
       p.args_decimal.push_back(to_decimal(x));
     }
-    const int digits = std::max(30, descriptor_.decimal_places + 5);
+    const int digits = std::max(30, type().decimal_places + 5);
     for (std::size_t j = 0; j < parts; ++j) {
       const bool none = threw != 0;
-      p.parts.push_back({none ? "exception" : to_hexfloat(results[j]),
-                         none ? "exception" : to_decimal(results[j]), to_decimal(exact[j].get(), digits),
+      p.parts.push_back({{none ? "exception" : to_hexfloat(results[j])},
+                         {none ? "exception" : to_decimal(results[j])},
+                         {to_decimal(exact[j].get(), digits)},
                          judging.judgement(batch, 0, j),
-                         condition_number(f, values, static_cast<int>(j), descriptor_.format.precision)});
+                         {},
+                         condition_number(f, values, static_cast<int>(j), type().format.precision)});
     }
     return p;
   }
 
-  RealDescriptor descriptor_;
-  FunctionTable<Real> functions_;
-  const FunctionTable<Reference>& family_;
+  const FunctionInfo& function_;
+  BatchFunction<Real> call_;
+  BatchFunction<Reference> family_;
 };
+
+template <RealType Real>
+BatchFunction<Real> call_of(const Subject& subject) {
+  return dynamic_cast<const FunctionSubject<Real>&>(subject).call();
+}
+
+// Every function of functions.def as a subject in Real.
+template <RealType Real>
+void add_functions(SubjectList& list, const RealDescriptor& type) {
+  const auto& table = function_table<Real>();
+  const auto& family = function_table<RealHP<4, Real>>();
+  for (const auto& f : all_functions()) {
+    const auto i = static_cast<std::size_t>(f.id);
+    list.push_back(std::make_unique<FunctionSubject<Real>>(type, f, table[i], family[i]));
+  }
+}
 
 }  // namespace ulpgate

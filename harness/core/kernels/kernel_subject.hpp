@@ -1,33 +1,44 @@
-// KernelEngineOf<Real>: the implementation of KernelEngine, instantiated in one translation unit per type.
+// KernelSubject<Real>: a DEM kernel in one Real type as a subject; instantiated in one translation unit per
+// type.
 #pragma once
 
 #include <cmath>
 
-#include "harness/core/kernels/kernel_engine.hpp"
 #include "harness/core/kernels/kernel_states.hpp"
+#include "harness/core/subject/registry.hpp"
 #include "kernels/dem/table/kernel_table.hpp"
 #include "reference/text/text.hpp"
-#include "reference/types/descriptor.hpp"
 
 namespace ulpgate {
 
+// Normwise condition number of a quantity f with respect to componentwise perturbations of its inputs
+// (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., 1.6 and 3.1): sum over the inputs x of
+// max |f(x (1 +- h)) - f(x)| / (h |f(x)|), h = 32 units of roundoff.  A finite h on purpose: where a branch
+// lies within a few roundings of the state, the jump across it belongs to the condition of the problem, not
+// to the kernel.
+
+[[nodiscard]] SubjectInfo subject_info(const dem::KernelInfo& kernel);
+
 template <RealType Real>
-class KernelEngineOf final : public KernelEngine {
+class KernelSubject final : public Subject {
  public:
   using Reference = RealHP<4, Real>;
 
-  KernelEngineOf(RealDescriptor descriptor, dem::KernelTable<Real> kernels,
-                 const dem::KernelTable<Reference>& reference)
-      : descriptor_(std::move(descriptor)), kernels_(std::move(kernels)), reference_(reference) {}
+  // `evaluate` is the code under test, `reference` the same kernel in RealHP<4>.
+  KernelSubject(const RealDescriptor& type, const dem::KernelInfo& kernel, dem::BatchKernel<Real> evaluate,
+                dem::BatchKernel<Reference> reference)
+      : Subject(subject_info(kernel), type), kernel_(kernel), call_(evaluate), reference_(reference) {}
 
-  [[nodiscard]] const RealDescriptor& descriptor() const override { return descriptor_; }
+  [[nodiscard]] ArgumentList listed(Stratum) const override { return {}; }
+  [[nodiscard]] bool can_exhaust() const override { return false; }
 
-  [[nodiscard]] std::vector<Summary> evaluate(const dem::KernelInfo& kernel, const StateSource& source,
-                                              std::uint64_t first, std::uint64_t last,
+  // The reference is RealHP<4> alone: there is nothing to screen with.
+  [[nodiscard]] std::vector<Summary> evaluate(const StratumSource& source, std::uint64_t first,
+                                              std::uint64_t last, ReferenceMode,
                                               RowHint& hint) const override {
-    const States<Real> states(kernel, source);
-    Evaluation e(*this, kernel);
-    std::vector<Summary> summaries(kernel.outputs.size());
+    const States<Real> states(kernel_, source);
+    Evaluation e(*this);
+    std::vector<Summary> summaries(kernel_.outputs.size());
     for (std::uint64_t k = first; k < last; ++k) {
       states.make(k, e.inputs.data());
       e.run();
@@ -39,36 +50,30 @@ class KernelEngineOf final : public KernelEngine {
         const double error = recorded({e.normwise_error(q)}).value;
         summaries[q].normwise.add(error, k);
         // A result that is right to a rounding cannot be unstable; a smaller error cannot raise the quotient.
-        auto& seen = hint.error_over_condition[q];
-        if (error <= 1 || error < seen.load(std::memory_order_relaxed)) continue;
+        if (error <= 1 || error < hint.error_over_condition[q].load(std::memory_order_relaxed)) continue;
         const double condition = e.condition(q);
         double ratio = condition > 1 ? error / condition : error;
         if (ratio != ratio) ratio = 0;  // infinite error at infinite condition says nothing
         summaries[q].max_error_over_condition = std::max(summaries[q].max_error_over_condition, ratio);
-        double best = seen.load(std::memory_order_relaxed);
-        while (ratio > best && !seen.compare_exchange_weak(best, ratio, std::memory_order_relaxed)) {
-        }
+        hint.raise_error_over_condition(q, ratio);
       }
     }
     return summaries;
   }
 
-  [[nodiscard]] KernelPoint point(const dem::KernelInfo& kernel, const StateSource& source,
-                                  std::uint64_t k) const override {
-    Evaluation e(*this, kernel);
-    States<Real>(kernel, source).make(k, e.inputs.data());
-    return describe(e);
+  [[nodiscard]] Point point(const StratumSource& source, std::uint64_t k) const override {
+    Evaluation e(*this);
+    States<Real>(kernel_, source).make(k, e.inputs.data());
+    return describe_point(e);
   }
-  [[nodiscard]] KernelPoint point(const dem::KernelInfo& kernel,
-                                  const std::vector<MpfrValue>& inputs) const override {
-    Evaluation e(*this, kernel);
+  [[nodiscard]] Point point(const std::vector<MpfrValue>& inputs) const override {
+    Evaluation e(*this);
     for (std::size_t i = 0; i < inputs.size(); ++i) e.inputs[i] = from_mpfr<Real>(inputs[i]);
-    return describe(e);
+    return describe_point(e);
   }
 
-  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(const dem::KernelInfo& kernel,
-                                                        std::size_t count) const override {
-    return std::make_unique<Timed>(kernel, kernels_[static_cast<std::size_t>(kernel.id)], count);
+  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(std::size_t count) const override {
+    return std::make_unique<Timed>(kernel_, call_, count);
   }
 
  private:
@@ -79,7 +84,7 @@ class KernelEngineOf final : public KernelEngine {
           inputs_(count * kernel.input_components()),
           results_(count * kernel.output_components()),
           threw_(count) {
-      const States<Real> states(kernel, {StateStratum::typical, 1, count});
+      const States<Real> states(kernel, {Stratum::typical, 1, count, nullptr});
       for (std::size_t i = 0; i < count; ++i) states.make(i, &inputs_[i * kernel.input_components()]);
     }
     void run(std::size_t count) override { evaluate_(inputs_.data(), results_.data(), threw_.data(), count); }
@@ -94,19 +99,19 @@ class KernelEngineOf final : public KernelEngine {
   // One kernel in one state: inputs, results and reference, with buffers that are used again for the next
   // state.
   struct Evaluation {
-    Evaluation(const KernelEngineOf& engine, const dem::KernelInfo& info)
-        : kernel(info),
-          inputs(info.input_components()),
-          results(info.output_components()),
-          exact(info.output_components()),
-          engine_(engine),
-          wide_(info.input_components()),
-          shifted_(info.input_components()),
-          moved_(info.output_components()),
+    explicit Evaluation(const KernelSubject& subject)
+        : kernel(subject.kernel_),
+          inputs(kernel.input_components()),
+          results(kernel.output_components()),
+          exact(kernel.output_components()),
+          subject_(subject),
+          wide_(kernel.input_components()),
+          shifted_(kernel.input_components()),
+          moved_(kernel.output_components()),
           got_(std::numeric_limits<Real>::digits),
           true_(std::numeric_limits<Reference>::digits) {
       std::size_t at = 0;
-      for (const auto& q : info.outputs) {
+      for (const auto& q : kernel.outputs) {
         first_.push_back(at);
         at += q.components;
       }
@@ -114,11 +119,10 @@ class KernelEngineOf final : public KernelEngine {
 
     void run() {
       threw_ = 0;
-      const auto id = static_cast<std::size_t>(kernel.id);
-      engine_.kernels_[id](inputs.data(), results.data(), &threw_, 1);
+      subject_.call_(inputs.data(), results.data(), &threw_, 1);
       for (std::size_t i = 0; i < inputs.size(); ++i) wide_[i] = widen<Reference>(inputs[i]);
       std::uint8_t reference_threw = 0;
-      engine_.reference_[id](wide_.data(), exact.data(), &reference_threw, 1);
+      subject_.reference_(wide_.data(), exact.data(), &reference_threw, 1);
       if (reference_threw != 0) threw_ = 1;
     }
 
@@ -151,7 +155,6 @@ class KernelEngineOf final : public KernelEngine {
     double condition(std::size_t q) {
       using std::ldexp;
       constexpr int step_exponent = 5 - std::numeric_limits<Real>::digits;
-      const auto id = static_cast<std::size_t>(kernel.id);
       Reference norm2(0);
       for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
         norm2 += exact[i] * exact[i];
@@ -164,7 +167,7 @@ class KernelEngineOf final : public KernelEngine {
         for (const int direction : {1, -1}) {
           shifted_[j] = wide_[j] + ldexp(Reference(direction * wide_[j]), step_exponent);
           std::uint8_t threw = 0;
-          engine_.reference_[id](shifted_.data(), moved_.data(), &threw, 1);
+          subject_.reference_(shifted_.data(), moved_.data(), &threw, 1);
           if (threw != 0) return std::numeric_limits<double>::infinity();
           Reference change2(0);
           for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
@@ -210,7 +213,7 @@ class KernelEngineOf final : public KernelEngine {
       return static_cast<double>(Reference(ldexp(Reference(sqrt(Reference(a / b))), exponent)));
     }
 
-    const KernelEngineOf& engine_;
+    const KernelSubject& subject_;
     std::vector<Reference> wide_;
     std::vector<Reference> shifted_;
     std::vector<Reference> moved_;
@@ -219,31 +222,47 @@ class KernelEngineOf final : public KernelEngine {
     MpfrValue true_;
     std::uint8_t threw_ = 0;
 
-    friend class KernelEngineOf;
+    friend class KernelSubject;
   };
 
-  [[nodiscard]] static KernelPoint describe(Evaluation& e) {
+  [[nodiscard]] static Point describe_point(Evaluation& e) {
     e.run();
-    KernelPoint p;
-    for (const auto& x : e.inputs) p.inputs_hex.push_back(to_hexfloat(x));
+    Point p;
+    for (const auto& x : e.inputs) {
+      p.args_hex.push_back(to_hexfloat(x));
+      p.args_decimal.push_back(to_decimal(x));
+    }
     for (std::size_t q = 0; q < e.kernel.outputs.size(); ++q) {
-      QuantityPoint& point = p.quantities.emplace_back();
-      point.judgement = e.judge(q);
+      PointPart& part = p.parts.emplace_back();
+      part.judgement = e.judge(q);
+      part.normwise_error = 0;
       if (e.threw_ != 0) continue;
-      point.normwise_error = e.normwise_error(q);
-      point.condition = e.condition(q);
+      part.normwise_error = e.normwise_error(q);
+      part.condition = e.condition(q);
       for (std::size_t i = e.first_[q]; i < e.first_[q] + e.kernel.outputs[q].components; ++i) {
-        point.got_hex.push_back(to_hexfloat(e.results[i]));
+        part.got_hex.push_back(to_hexfloat(e.results[i]));
+        part.got_decimal.push_back(to_decimal(e.results[i]));
         to_mpfr(e.true_.get(), e.exact[i]);
-        point.exact_decimal.push_back(to_decimal(e.true_.get(), 30));
+        part.exact_decimal.push_back(to_decimal(e.true_.get(), 30));
       }
     }
     return p;
   }
 
-  RealDescriptor descriptor_;
-  dem::KernelTable<Real> kernels_;
-  const dem::KernelTable<Reference>& reference_;
+  const dem::KernelInfo& kernel_;
+  dem::BatchKernel<Real> call_;
+  dem::BatchKernel<Reference> reference_;
 };
+
+// Every kernel of kernels.def as a subject in Real.
+template <RealType Real>
+void add_kernels(SubjectList& list, const RealDescriptor& type) {
+  const auto& table = dem::kernel_table<Real>();
+  const auto& reference = dem::kernel_table<RealHP<4, Real>>();
+  for (const auto& kernel : dem::all_kernels()) {
+    const auto i = static_cast<std::size_t>(kernel.id);
+    list.push_back(std::make_unique<KernelSubject<Real>>(type, kernel, table[i], reference[i]));
+  }
+}
 
 }  // namespace ulpgate

@@ -1,0 +1,43 @@
+// RowHint: what the units of one row tell each other while they run.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <vector>
+
+#include "harness/core/records/stage.hpp"
+#include "harness/core/records/summary.hpp"
+
+namespace ulpgate {
+
+// Shared by the units of one row: the largest figures that finished units have found, which let a unit skip
+// what cannot raise them, and counts of the samples that each stage decided.  They change how much is
+// computed, never the row's record.
+class RowHint {
+ public:
+  std::vector<std::atomic<double>> error_over_condition;
+  std::array<std::atomic<std::uint64_t>, stage_count> decided{};
+
+  explicit RowHint(std::size_t parts) : error_over_condition(parts), max_error_(parts) {}
+  [[nodiscard]] Maximum max_error(std::size_t part) const {
+    const std::lock_guard lock(mutex_);
+    return max_error_[part];
+  }
+  void raise_max_error(std::size_t part, const Maximum& found) {
+    const std::lock_guard lock(mutex_);
+    max_error_[part].merge(found);
+  }
+  // The largest finite quotient of error and condition number; `ratio` counts if it is larger.
+  void raise_error_over_condition(std::size_t part, double ratio) {
+    double seen = error_over_condition[part].load(std::memory_order_relaxed);
+    while (ratio > seen &&
+           !error_over_condition[part].compare_exchange_weak(seen, ratio, std::memory_order_relaxed)) {
+    }
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<Maximum> max_error_;
+};
+
+}  // namespace ulpgate
