@@ -16,27 +16,26 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_of(TimedBatch& batch, std::size_t count, int rounds) {
+double seconds_of(const TimedBatch& batch, std::size_t count, int rounds) {
   const auto start = Clock::now();
-  for (int i = 0; i < rounds; ++i) batch.run(count);
+  for (int i = 0; i < rounds; ++i) batch(count);
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 constexpr std::size_t batch_size = 512;
 
 // `batch` holds batch_size points.
-TimingRecord measure(std::string_view what, const std::string& token,
-                     const std::unique_ptr<TimedBatch>& batch) {
+TimingRecord measure(std::string_view what, const std::string& token, const TimedBatch& batch) {
   constexpr double enough_s = 5e-4;
   constexpr int repeats = 7;
   // The warm-up finds how much one repeat must hold: a part of the batch for slow types, many rounds for fast
   // ones.
-  const double first_s = seconds_of(*batch, 32, 1);
+  const double first_s = seconds_of(batch, 32, 1);
   const std::size_t count = first_s > 2e-3 ? 32 : batch_size;
   int rounds = 1;
-  while (seconds_of(*batch, count, rounds) < enough_s) rounds *= 2;
-  double best_s = seconds_of(*batch, count, rounds);
-  for (int i = 1; i < repeats; ++i) best_s = std::min(best_s, seconds_of(*batch, count, rounds));
+  while (seconds_of(batch, count, rounds) < enough_s) rounds *= 2;
+  double best_s = seconds_of(batch, count, rounds);
+  for (int i = 1; i < repeats; ++i) best_s = std::min(best_s, seconds_of(batch, count, rounds));
   const double evaluations = static_cast<double>(count) * rounds;
   return {std::string(what), token, 1e9 * best_s / evaluations, repeats, count};
 }

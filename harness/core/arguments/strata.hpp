@@ -10,23 +10,24 @@
 
 namespace ulpgate {
 
+// What each is stands in the tables below; uniform and stratified are of functions and of kernels.
 enum class Stratum {
-  worst,       // known worst cases, kept as data and replayed first
-  uniform,     // functions: random on (-100, 100), then the domain map (the paper's first set); kernels: wide
-  stratified,  // the same, equidistributed over cells (the paper's second set)
-  binades,     // every exponent of the type that the domain allows, random significands, both signs
-  edges,  // zeros, infinities, NaN, least and greatest numbers, 1, integers, halves, poles and neighbours
-  hard,   // structured: nearest to multiples of pi/2, to zeros, to over- and underflow, powers near 1
-  exhaustive,  // every value of the type; float alone, functions of one argument; never part of "all"
-  typical,     // kernels: small overlaps, moderate speeds: what a simulation is made of
-  grazing,     // relative velocity almost across the normal
-  touching,    // overlaps down to the last bit of the radii
-  deep,        // overlaps up to 0.9 of the smaller radius
-  ratio,       // radii up to 2^40 (1e12) apart
-  far,         // positions up to 2^40 from the origin
-  slow,        // velocities and rotations down to 2^-60
-  parallel,    // normals and orientations that hardly turn
-  cone,        // shear force on the friction cone, no slip in the step
+  worst,
+  uniform,
+  stratified,
+  binades,
+  edges,
+  hard,
+  exhaustive,
+  typical,
+  grazing,
+  touching,
+  deep,
+  ratio,
+  far,
+  slow,
+  parallel,
+  cone,
 };
 
 struct StratumInfo {

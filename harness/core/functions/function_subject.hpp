@@ -77,30 +77,16 @@ class FunctionSubject final : public Subject {
     return describe_point(args);
   }
 
-  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(std::size_t count) const override {
-    return std::make_unique<Timed>(function_, call_, count);
+  [[nodiscard]] TimedBatch timed_batch(std::size_t count) const override {
+    std::vector<Real> args(count * static_cast<std::size_t>(function_.arity));
+    std::vector<Real> results(count * static_cast<std::size_t>(function_.parts));
+    Arguments<Real>(function_, {Stratum::uniform, 1, count, nullptr}).make_all(0, count, args.data());
+    return [call = call_, args, results, threw = std::vector<std::uint8_t>(count)](std::size_t n) mutable {
+      call(args.data(), results.data(), threw.data(), n);
+    };
   }
 
  private:
-  class Timed final : public TimedBatch {
-   public:
-    Timed(const FunctionInfo& f, BatchFunction<Real> function, std::size_t count)
-        : function_(function),
-          args_(count * static_cast<std::size_t>(f.arity)),
-          results_(count * static_cast<std::size_t>(f.parts)),
-          threw_(count) {
-      const Arguments<Real> arguments(f, {Stratum::uniform, 1, count, nullptr});
-      arguments.make_all(0, count, args_.data());
-    }
-    void run(std::size_t count) override { function_(args_.data(), results_.data(), threw_.data(), count); }
-
-   private:
-    BatchFunction<Real> function_;
-    std::vector<Real> args_;
-    std::vector<Real> results_;
-    std::vector<std::uint8_t> threw_;
-  };
-
   // Tells the hint of a row of which nothing is known the largest error of a few points all over the unit.
   // Where a function is next to a constant all errors are tiny, and each would climb for being the maximum.
   void preview(const StratumSource& source, std::uint64_t first, std::uint64_t last, RowHint& hint) const {

@@ -72,30 +72,17 @@ class KernelSubject final : public Subject {
     return describe_point(e);
   }
 
-  [[nodiscard]] std::unique_ptr<TimedBatch> timed_batch(std::size_t count) const override {
-    return std::make_unique<Timed>(kernel_, call_, count);
+  [[nodiscard]] TimedBatch timed_batch(std::size_t count) const override {
+    std::vector<Real> inputs(count * kernel_.input_components());
+    std::vector<Real> results(count * kernel_.output_components());
+    const States<Real> states(kernel_, {Stratum::typical, 1, count, nullptr});
+    for (std::size_t i = 0; i < count; ++i) states.make(i, &inputs[i * kernel_.input_components()]);
+    return [call = call_, inputs, results, threw = std::vector<std::uint8_t>(count)](std::size_t n) mutable {
+      call(inputs.data(), results.data(), threw.data(), n);
+    };
   }
 
  private:
-  class Timed final : public TimedBatch {
-   public:
-    Timed(const dem::KernelInfo& kernel, dem::BatchKernel<Real> evaluate, std::size_t count)
-        : evaluate_(evaluate),
-          inputs_(count * kernel.input_components()),
-          results_(count * kernel.output_components()),
-          threw_(count) {
-      const States<Real> states(kernel, {Stratum::typical, 1, count, nullptr});
-      for (std::size_t i = 0; i < count; ++i) states.make(i, &inputs_[i * kernel.input_components()]);
-    }
-    void run(std::size_t count) override { evaluate_(inputs_.data(), results_.data(), threw_.data(), count); }
-
-   private:
-    dem::BatchKernel<Real> evaluate_;
-    std::vector<Real> inputs_;
-    std::vector<Real> results_;
-    std::vector<std::uint8_t> threw_;
-  };
-
   // One kernel in one state: inputs, results and reference, with buffers that are used again for the next
   // state.
   struct Evaluation {
@@ -142,23 +129,13 @@ class KernelSubject final : public Subject {
 
     // |got - exact| / |exact| in units of 2^-p; 0 where both are 0, infinite where only the exact one is.
     double normwise_error(std::size_t q) {
-      Reference difference2(0);
-      Reference norm2(0);
-      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
-        const Reference d = widen<Reference>(results[i]) - exact[i];
-        difference2 += d * d;
-        norm2 += exact[i] * exact[i];
-      }
-      return scaled_root(difference2, norm2, std::numeric_limits<Real>::digits);
+      return scaled_root(distance2(results, q), norm2(q), std::numeric_limits<Real>::digits);
     }
 
     double condition(std::size_t q) {
       using std::ldexp;
       constexpr int step_exponent = 5 - std::numeric_limits<Real>::digits;
-      Reference norm2(0);
-      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
-        norm2 += exact[i] * exact[i];
-      }
+      const Reference norm = norm2(q);
       double sum = 0;
       shifted_ = wide_;
       for (std::size_t j = 0; j < wide_.size(); ++j) {
@@ -169,12 +146,7 @@ class KernelSubject final : public Subject {
           std::uint8_t threw = 0;
           subject_.reference_(shifted_.data(), moved_.data(), &threw, 1);
           if (threw != 0) return std::numeric_limits<double>::infinity();
-          Reference change2(0);
-          for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
-            const Reference d = moved_[i] - exact[i];
-            change2 += d * d;
-          }
-          largest = std::max(largest, scaled_root(change2, norm2, -step_exponent));
+          largest = std::max(largest, scaled_root(distance2(moved_, q), norm, -step_exponent));
         }
         shifted_[j] = wide_[j];
         sum += largest;
@@ -203,6 +175,23 @@ class KernelSubject final : public Subject {
     }
 
     static constexpr FloatFormat descriptor_format() { return float_format<Real>(); }
+
+    // |values - exact|^2 over the components of a quantity.
+    template <class Value>
+    Reference distance2(const std::vector<Value>& values, std::size_t q) const {
+      Reference sum(0);
+      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
+        const Reference d = widen<Reference>(values[i]) - exact[i];
+        sum += d * d;
+      }
+      return sum;
+    }
+    Reference norm2(std::size_t q) const {
+      Reference sum(0);
+      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i)
+        sum += exact[i] * exact[i];
+      return sum;
+    }
 
     // sqrt(a/b) 2^exponent as a double.
     static double scaled_root(const Reference& a, const Reference& b, int exponent) {

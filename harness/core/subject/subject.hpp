@@ -1,7 +1,7 @@
 // Subject: what is tested in one Real type, a math function or a kernel, behind one narrow interface.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,16 +56,8 @@ struct Point {
   std::vector<PointPart> parts;
 };
 
-// A prepared batch of arguments, evaluated again and again by a benchmark.
-class TimedBatch {
- public:
-  TimedBatch() = default;
-  TimedBatch(const TimedBatch&) = delete;
-  TimedBatch& operator=(const TimedBatch&) = delete;
-  virtual ~TimedBatch() = default;
-  // Evaluates the first `count` points.
-  virtual void run(std::size_t count) = 0;
-};
+// A prepared batch of arguments: evaluates its first `count` points, again and again.
+using TimedBatch = std::function<void(std::size_t count)>;
 
 class Subject {
  public:
@@ -95,7 +87,7 @@ class Subject {
   [[nodiscard]] virtual Point point(const std::vector<MpfrValue>& args) const = 0;
 
   // Uniform arguments of a function, typical states of a kernel.
-  [[nodiscard]] virtual std::unique_ptr<TimedBatch> timed_batch(std::size_t count) const = 0;
+  [[nodiscard]] virtual TimedBatch timed_batch(std::size_t count) const = 0;
 
  private:
   SubjectInfo info_;
