@@ -1,0 +1,161 @@
+"""Tests of the verbs below `scene`: their options, what they refuse, what they print and write."""
+
+import json
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
+VERBS = "run explain compare ladder correlate speed".split()
+MODEL = {"--types", "--set", "--dt", "--help"}
+LENGTH = {"--integrator", "--until", "--steps", "--threads", "--all-parts", "--json"}
+RECORD = {"--out", "--record", "--series", "--snapshots", "--vtk", "--overwrite"}
+CHECKPOINTS = {"--resume", "--checkpoint-seconds"}
+OPTIONS = {
+    "run": MODEL | LENGTH | RECORD | CHECKPOINTS,
+    "explain": MODEL | {"--threads"},
+    "compare": MODEL | LENGTH | RECORD | {"--own-constants"},
+    "ladder": MODEL,
+    "correlate": MODEL | LENGTH | RECORD | CHECKPOINTS | {"--reference"},
+    "speed": MODEL | LENGTH | {"--out", "--repeats"},
+}
+EVERY = sorted(set().union(*OPTIONS.values()) - {"--help"})
+FLAGS = (
+    "--all-parts --json --record --series --vtk --overwrite --resume --own-constants"
+)
+
+
+def run(*words):
+    done = subprocess.run(
+        [ULPGATE, *map(str, words)], capture_output=True, text=True, cwd=ROOT
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_help_has_a_purpose_two_examples_and_exactly_the_options(verb):
+    code, out, _ = run("scene", verb, "--help")
+    assert code == 0
+    assert out.splitlines()[0].strip(), "its purpose in one line"
+    assert out.count(f"\n  ulpgate scene {verb} ") == 2
+    shown = {
+        word.rstrip(",")
+        for line in out.splitlines()
+        if line.startswith("  -")
+        for word in line.split()[0].split(",")
+        if word.startswith("--")
+    }
+    assert shown == OPTIONS[verb]
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_a_verb_refuses_the_options_of_others(verb):
+    for option in sorted(set(EVERY) - OPTIONS[verb]):
+        value = [] if option in FLAGS.split() else ["1"]
+        code, _, err = run("scene", verb, "collision", option, *value)
+        assert code == 2 and option in err, (option, err)
+
+
+OLD = [
+    ("pendulum3", "ulpgate scene run pendulum3"),
+    ("pendulum3 --explain", "ulpgate scene explain pendulum3"),
+    ("--types double pendulum3 --explain", "ulpgate scene explain pendulum3"),
+    ("deposition --steps 9 --compare", "ulpgate scene compare deposition"),
+    ("pendulum3 --ladder --types mpfr62", "ulpgate scene ladder pendulum3"),
+    ("pendulum3 --correlate --series", "ulpgate scene correlate pendulum3"),
+    ("deposition --repeats 10 --out T", "ulpgate scene speed deposition"),
+    ("mine.toml --steps 3", "ulpgate scene run mine.toml"),
+    ("run pendulum3 --explain", "ulpgate scene explain pendulum3"),
+    ("run pendulum3 --compare", "ulpgate scene compare pendulum3"),
+    ("run pendulum3 --type double", "--types"),
+    ("run pendulum3 --type=double", "--types"),
+    ("run pendulum3 --variant mass=yade", "--set"),
+    ("run pendulum3 --set dt=1e-6", "--dt"),
+    ("run pendulum3 --set until=1", "--until"),
+    ("--json run pendulum3", "ulpgate scene run SCENE --json"),
+    ("run pendulum3 collision", "'collision'"),
+    ("", "name a verb"),
+]
+
+
+@pytest.mark.parametrize("words,message", OLD)
+def test_other_spellings_are_refused_with_the_one(words, message):
+    code, out, err = run("scene", *words.split())
+    assert code == 2 and message in err and out == "", err
+
+
+BAD_VALUES = [
+    (["--steps", "0"], "--steps", "'0'"),
+    (["--steps", "-1"], "--steps", "'-1'"),
+    (["--steps", "1.5"], "--steps", "'1.5'"),
+    (["--steps", ""], "--steps", "''"),
+    (["--steps", "18446744073709551616"], "--steps", "'18446744073709551616'"),
+    (["--steps", "9007199254740993"], "--steps", "'9007199254740993'"),
+    (["--dt", ""], "--dt", "''"),
+    (["--dt", "-1e-6"], "--dt", "'-1e-6'"),
+    (["--dt", "fast"], "--dt", "'fast'"),
+    (["--until", ""], "--until", "''"),
+    (["--until", "0"], "--until", "'0'"),
+    (["--until", "1e-9"], "--until", "'1e-9'"),
+    (["--until", "1e300"], "--until", "'1e300'"),
+    (["--until", "1e-3", "--steps", "5"], "--until", "--steps"),
+    (["--snapshots", "-1", "--out", "OUT"], "--snapshots", "'-1'"),
+    (["--snapshots", "", "--out", "OUT"], "--snapshots", "''"),
+    (["--snapshots", "0,1/0", "--out", "OUT"], "--snapshots", "'0,1/0'"),
+    (["--snapshots", "0,7", "--out", "OUT"], "--snapshots", "'0,7'"),
+    (["--snapshots", "0"], "--snapshots", "--out"),
+    (["--vtk", "--out", "OUT"], "--vtk", "--snapshots"),
+    (["--record", "--series", "--out", "OUT"], "--record", "--series"),
+    (["--overwrite"], "--overwrite", "--out"),
+    (["--resume", "--overwrite", "--out", "OUT"], "--resume", "--overwrite"),
+    (["--checkpoint-seconds", "5"], "--checkpoint-seconds", "--out"),
+    (["--own-constants"], "--own-constants", "scene compare"),
+    (["--out", ""], "--out", "''"),
+    (["--types", ""], "--types", "names no type"),
+    (["--threads", "0"], "--threads", "0"),
+]
+
+
+@pytest.mark.parametrize("words,option,value", BAD_VALUES)
+def test_a_bad_value_is_named_and_nothing_is_written(words, option, value, tmp_path):
+    out = tmp_path / "out"
+    given = [out if word == "OUT" else word for word in words]
+    code, printed, err = run("scene", "run", "collision", *given)
+    assert code == 2 and option in err and value in err, err
+    assert printed == "" and not out.exists()
+
+
+def test_an_override_may_stand_before_the_scene():
+    code, out, err = run(
+        *"scene run --set material.ball.density=2600 collision --steps 1 --json".split()
+    )
+    assert code == 0, err
+    assert json.loads(out)["variant"] == "material.ball.density=2600"
+
+
+def test_json_is_all_that_speed_prints(tmp_path):
+    words = "scene speed collision --types float,double --steps 50 --repeats 2 --json"
+    code, out, err = run(*words.split(), "--out", tmp_path)
+    assert code == 0, err
+    rows = [json.loads(line) for line in out.splitlines()]
+    assert [(r["type"], r["repeats"], r["threads"]) for r in rows] == [
+        ("float", 2, 1),
+        ("double", 2, 1),
+    ]
+    assert (tmp_path / "timing.jsonl").read_text() == out
+
+
+def test_explain_names_what_is_left_out():
+    code, out, err = run("scene", "explain", "collision")
+    assert code == 0, err
+    assert "left out" in out and "step with all parts" in out
+
+
+def test_own_constants_part_from_widened_ones():
+    words = "scene compare pendulum3 --types float --steps 100".split()
+    widened, own = run(*words), run(*words, "--own-constants")
+    assert widened[0] == own[0] == 0
+    assert widened[1] != own[1]
