@@ -159,3 +159,15 @@ def test_own_constants_part_from_widened_ones():
     widened, own = run(*words), run(*words, "--own-constants")
     assert widened[0] == own[0] == 0
     assert widened[1] != own[1]
+
+
+@pytest.mark.parametrize("scene", ["collision", "pendulum3", "packing", "rolling"])
+def test_scene_records_do_not_depend_on_threads(scene, tmp_path):
+    words = f"scene run {scene} --types float,double --steps 200 --series".split()
+    for threads in (1, 2):
+        out = tmp_path / str(threads)
+        code, _, err = run(*words, "--threads", threads, "--out", out)
+        assert code == 0, err
+        assert json.loads((out / "context.json").read_text())["threads"] == threads
+    one, two = (tmp_path / t / "scenes.jsonl" for t in "12")
+    assert one.read_bytes() == two.read_bytes()

@@ -125,7 +125,6 @@ Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob&
   j["t_end"] = engine.time_s();
   j["bodies"] = engine.bodies();
   j["contacts"] = engine.contacts().size();
-  j["threads"] = job.threads;
   j["parts_left_out"] = left_out;
   j["kinetic_energy"] = engine.kinetic_energy();
   j["mean_position"] = mean_position(engine);

@@ -48,7 +48,7 @@ struct FinishedRun {
 [[nodiscard]] FinishedRun run_to_end(const RunRequest& request, const SceneJob& job,
                                      const RecordRequest& records);
 
-// The line of scenes.jsonl.
+// The line of scenes.jsonl: nothing that depends on the machine, the time or the number of threads.
 [[nodiscard]] Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob& job);
 
 // Starts the program again with a policy under which waiting threads sleep, where it has several.
