@@ -53,7 +53,6 @@ def scene_record(token, scene="deposition", **changes):
         "t_end": STEPS * DT,
         "bodies": 10021,
         "contacts": 9892,
-        "threads": 1,
         "parts_left_out": [{"part": "damping", "why": "it is 0"}],
         "kinetic_energy": kinetic,
         "mean_position": [-1.5e-4, -0.345608, 2.5e-4],

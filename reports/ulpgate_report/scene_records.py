@@ -71,7 +71,7 @@ def _load_records(path):
     seen, found = {}, []
     if not path.exists():
         return found
-    names = ("scene", "type", "integrator", "dt", "variant", "threads", "plan")
+    names = ("scene", "type", "integrator", "dt", "variant", "plan")
     for where, record in reading.read_lines(path, "scenes"):
         key = tuple(str(record.get(name, "")) for name in names)
         if key in seen:
