@@ -11,13 +11,13 @@ namespace ulpgate::app {
 
 namespace {
 
-void print_row(const Json& j, const dem::DemEngine& engine) {
+void print_row(const Json& j, const SceneJob& job, const dem::DemEngine& engine) {
   fmt::print(
-      "{:<12} {:<16} steps {:>8}  t {:<10.6g} contacts {:>6}  kinetic {:.10g} J  mean y {:.10g} m  state "
+      "{:<12} {:<16} steps {:>8}  t {:<10.6g} contacts {:>6}  kinetic_{} {:.10g} J  mean y {:.10g} m  state "
       "{}\n",
       j["scene"].get<std::string>(), j["type"].get<std::string>(), engine.iteration(), engine.time_s(),
-      engine.contacts().size(), engine.kinetic_energy(), mean_position(engine)[1],
-      j["state_hash"].get<std::string>());
+      engine.contacts().size(), name_of(velocities_of(job)), engine.kinetic_energy(),
+      mean_position(engine)[1], j["state_hash"].get<std::string>());
 }
 
 void print_energy(const SceneStatistics& s) {
@@ -78,7 +78,7 @@ ExitCode run_batch(const SceneTask& task, const BatchRequest& batch) {
     const FinishedRun run = run_one(token, task, batch);
     const Json row = scene_row(run, token, task.job);
     if (!batch.json) {
-      print_row(row, *run.engine);
+      print_row(row, task.job, *run.engine);
       if (!run.engine->energy_names().empty()) print_energy(run.statistics);
       print_divergence(run.divergence);
     }

@@ -1,5 +1,6 @@
 """Tests of the verbs below `scene`: their options, what they refuse, what they print and write."""
 
+import csv
 import json
 import os
 import pathlib
@@ -171,3 +172,42 @@ def test_scene_records_do_not_depend_on_threads(scene, tmp_path):
         assert json.loads((out / "context.json").read_text())["threads"] == threads
     one, two = (tmp_path / t / "scenes.jsonl" for t in "12")
     assert one.read_bytes() == two.read_bytes()
+
+
+def last_record(tmp_path, *words):
+    """The record in double, and the last row of its series."""
+    code, _, err = run("scene", "run", *words, "--series", "--out", tmp_path)
+    assert code == 0, err
+    (record,) = map(json.loads, (tmp_path / "scenes.jsonl").read_text().splitlines())
+    with open(tmp_path / f"series/{record['scene']}_double.csv") as file:
+        return record, list(csv.DictReader(file))[-1]
+
+
+def test_kinetic_energies_of_half_steps_and_on_the_step_have_names_of_their_own(
+    tmp_path,
+):
+    """A ball falls from rest: n g dt after n steps, half a step later than the mean of n - 1 and n."""
+    steps = 10
+    record, row = last_record(tmp_path, "bouncing", "--steps", steps)
+    half_step = record["kinetic_energy_half_step_J"]
+    on_step = record["energy"]["translational_on_step"]
+    assert record["energy"]["rotational_on_step"] == 0
+    assert on_step / half_step == pytest.approx(((steps - 0.5) / steps) ** 2, rel=1e-12)
+    assert float(row["kinetic_half_step_J"]) == half_step
+    assert float(row["translational_on_step"]) == on_step
+    for old in ("kinetic", "rotational", "kinetic_J"):
+        assert old not in row and old not in record["energy"]
+    assert "kinetic_energy" not in record
+    code, out, _ = run("scene", "run", "bouncing", "--steps", steps)
+    assert code == 0 and f"kinetic_half_step {half_step:.10g} J" in out
+
+
+def test_velocities_of_a_composition_method_are_on_the_step(tmp_path):
+    words = ["--integrator", "yoshida8", "--steps", 50]
+    record, row = last_record(tmp_path, "pendulum3", *words)
+    on_step = record["kinetic_energy_on_step_J"]
+    assert on_step > 0 and "kinetic_energy_half_step_J" not in record
+    assert record["energy"]["translational_on_step"] == pytest.approx(
+        on_step, rel=1e-14
+    )
+    assert float(row["kinetic_on_step_J"]) == on_step

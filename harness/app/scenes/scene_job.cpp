@@ -116,7 +116,7 @@ SceneJob make_job(const SceneRequest& request) {
   job.integrator = request.integrator;
   job.threads = request.threads;
   job.all_parts = request.all_parts;
-  const std::string integrator = has_half_step_velocities(job) ? "" : "integrator " + job.integrator + "\n";
+  const std::string integrator = job.integrator == leapfrog ? "" : "integrator " + job.integrator + "\n";
   job.plan_text = fmt::format("ulpgate scene plan\n{}steps {}\nscene {:016x}\n{}\n", integrator, job.steps,
                               fnv1a(job.loaded.text), job.loaded.text);
   job.plan = fmt::format("{:016x}", fnv1a(job.plan_text));
@@ -125,7 +125,7 @@ SceneJob make_job(const SceneRequest& request) {
 
 std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const SceneJob& job) {
   auto engine = dem::make_engine(token, level, job.loaded.scene, {job.all_parts, job.threads});
-  if (has_half_step_velocities(job)) return engine;
+  if (job.integrator == leapfrog) return engine;
   try {
     engine->set_flow(find_order_engine(token)->flow(job.integrator));
   } catch (const std::invalid_argument& e) {
@@ -134,8 +134,12 @@ std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level l
   return engine;
 }
 
-bool has_half_step_velocities(const SceneJob& job) {
-  return job.integrator == leapfrog;
+Velocities velocities_of(const SceneJob& job) {
+  return job.integrator == leapfrog ? Velocities::half_step : Velocities::on_step;
+}
+
+std::string name_of(Velocities velocities) {
+  return velocities == Velocities::half_step ? "half_step" : "on_step";
 }
 
 }  // namespace ulpgate::app

@@ -50,8 +50,11 @@ constexpr std::uint64_t most_steps = std::uint64_t{1} << 53U;
 // The simulation at its start.  Throws a Failure where the integrator does not apply to the scene.
 [[nodiscard]] std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level,
                                                         const SceneJob& job);
-// Whether the velocities of a state belong to the middle of the step before it (the leapfrog) or to the state
-// itself.
-[[nodiscard]] bool has_half_step_velocities(const SceneJob& job);
+// The instant of the velocities that a state holds: half a step before its positions (the leapfrog), or
+// theirs (composition methods).
+enum class Velocities { half_step, on_step };
+[[nodiscard]] Velocities velocities_of(const SceneJob& job);
+// What the kinetic energy of such velocities is called in records: "half_step" or "on_step".
+[[nodiscard]] std::string name_of(Velocities velocities);
 
 }  // namespace ulpgate::app

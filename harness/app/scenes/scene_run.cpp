@@ -38,6 +38,7 @@ RecordPlan record_plan(const RunRequest& request, const SceneJob& job, const Rec
   plan.plan = job.plan;
   plan.record_every = job.record_every;
   plan.chain = job.loaded.scene.records("angles");
+  plan.velocities = velocities_of(job);
   plan.series = records.series;
   plan.trajectory = records.trajectory;
   plan.bits = static_cast<int>(format.precision) * static_cast<int>(request.level);
@@ -126,7 +127,7 @@ Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob&
   j["bodies"] = engine.bodies();
   j["contacts"] = engine.contacts().size();
   j["parts_left_out"] = left_out;
-  j["kinetic_energy"] = engine.kinetic_energy();
+  j["kinetic_energy_" + name_of(velocities_of(job)) + "_J"] = engine.kinetic_energy();
   j["mean_position"] = mean_position(engine);
   j["energy"] = energy_json(engine);
   j["energy_start"] = s.energy_start;
