@@ -49,17 +49,18 @@ def our_states(program, folder, steps, dt, damping):
     """Positions and velocities of the movable bodies, as hexfloats, at multiples of the first of `steps`."""
     words = [
         "scene",
+        "run",
         "pendulum3",
-        "--type",
+        "--types",
         "double",
         "--steps",
         max(steps),
         "--dt",
         dt,
     ]
-    words += ["--variant", "mass=yade", "--variant", f"damping={damping}"]
+    words += ["--set", "mass=yade", "--set", f"damping={damping}"]
     words += [
-        "--variant",
+        "--set",
         f"record_every={min(steps)}*({dt})",
         "--record",
         "--out",
@@ -118,8 +119,9 @@ def compare_deposition(o, folder):
         out = folder / f"deposition{repeat}"
         words = [
             "scene",
+            "speed",
             "deposition",
-            "--type",
+            "--types",
             "double",
             "--steps",
             o.deposition_steps,

@@ -57,9 +57,6 @@ def largest_of_stretches(times, values, most=MOST_ERRORS):
 
 def _parts(columns):
     account = figure_energy.parts(columns)
-    # The account's own kinetic energy has velocities of the same instant as its positions.
-    if "kinetic" in columns:
-        account["kinetic"] = columns["kinetic"]
     return {name: values for name, values in account.items() if numpy.any(values)}
 
 

@@ -7,6 +7,8 @@ from matplotlib import pyplot
 from ulpgate_report import figure_style, type_order
 
 FAMILY = "energy"
+# Of the velocities as a simulation holds them: half a step before the positions, or of their instant.
+KINETIC = ("kinetic_half_step_J", "kinetic_on_step_J")
 _CAPTION = (
     "Scene %s: parts of the energy account against time in %s (left); distance of their sum from its value at the start, "
     "a line for each type (right, logarithmic). Parts that stay 0, and instants "
@@ -32,7 +34,11 @@ def parts(columns):
         short = name.removesuffix("_J")
         other = name in _NOT_ENERGY or name.endswith(_NOT_ENERGY_ENDS)
         if not other and short != "sum":
-            found.setdefault(short, values)
+            found[short] = values
+    # An account has velocities of the instant of its positions, so the others' energy is no part of it.
+    if "translational_on_step" in found:
+        for name in KINETIC:
+            found.pop(name.removesuffix("_J"), None)
     return found
 
 
@@ -97,7 +103,7 @@ def _draw_parts(axes, columns):
             values,
             color=figure_style.colour(index),
             linestyle=_DASHES[index % len(_DASHES)],
-            label=name,
+            label=name.removesuffix("_on_step"),
         )
     total = columns.get("sum_J", columns.get("sum"))
     if total is not None:
@@ -143,7 +149,8 @@ def draw(scenes):
             caption = _CAPTION % (scene, shown)
         else:
             figure, axes = pyplot.subplots(figsize=(5.0, 3.2))
-            lines = [(t, (c["time_s"], c["kinetic_J"])) for t, c in series]
+            held = [(t, c, next(n for n in KINETIC if n in c)) for t, c in series]
+            lines = [(t, (c["time_s"], c[name])) for t, c, name in held]
             _draw_types(axes, lines, tokens, "kinetic energy (J)", False)
             caption = _KINETIC_ONLY % scene
         yield f"{FAMILY}_{scene}", caption, figure

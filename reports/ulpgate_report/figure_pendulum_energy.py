@@ -35,7 +35,7 @@ def _draw_parts(axes, series):
             color=figure_style.colour(index),
             linestyle=_DASHES[index % len(_DASHES)],
             linewidth=0.7,
-            label=name,
+            label=name.removesuffix("_on_step"),
         )
     if series.parts:
         total = numpy.sum(list(series.parts.values()), axis=0)

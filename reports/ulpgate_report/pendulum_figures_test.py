@@ -153,7 +153,7 @@ def test_the_least_that_can_be_drawn():
         numpy.array([0.0, 1e-4]),
         numpy.array([1.0, 1.0]),
         numpy.array([1e-4]),
-        {"kinetic": numpy.array([nan])},
+        {"translational_on_step": numpy.array([nan])},
         {chain_series.RAW: (numpy.array([1e-4]), numpy.array([0.0]))},
     )
     given = only(

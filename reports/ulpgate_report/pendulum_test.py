@@ -141,7 +141,11 @@ def test_a_series_is_read_by_names(tmp_path):
     path = tmp_path / "pendulum3_double.csv"
     path.write_text(sample_pendulum.series("double", end=4.0, every=1e-3))
     found = chain_series.read(path)
-    assert list(found.parts) == ["kinetic", "elastic", "potential"], "0 is left out"
+    assert list(found.parts) == [
+        "translational_on_step",
+        "elastic",
+        "potential",
+    ], "0 is left out"
     steps = numpy.diff(found.angle_times)
     assert steps == pytest.approx(1e-3), "without the first step, which is off the grid"
     assert len(found.part_times) == 2000 and found.part_times[0] == 1e-5

@@ -99,7 +99,7 @@ def angle(time, token, damping=0.0):
 
 
 SERIES = (
-    "step,time_s,kinetic_J,kinetic,rotational,elastic,potential,friction,damping,viscous,broken,work,sum,"
+    "step,time_s,kinetic_half_step_J,translational_on_step,rotational_on_step,elastic,potential,friction,damping,viscous,broken,work,sum,"
     "mean_x_m,mean_y_m,mean_z_m,angle_1_rad,angle_2_rad,angle_product,energy_error_J,raw_energy_error_J"
 )
 

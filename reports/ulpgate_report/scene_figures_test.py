@@ -66,14 +66,18 @@ def columns(**values):
 @pytest.mark.parametrize(
     "given, expected, why",
     [
-        ({"kinetic_J": (1, 2, 3)}, None, "no account"),
+        ({"kinetic_half_step_J": (1, 2, 3)}, None, "no account"),
         (
-            {"kinetic_J": (1, 2, 3), "elastic_J": (3, 2, 2)},
+            {"translational_on_step_J": (1, 2, 3), "elastic_J": (3, 2, 2)},
             [0.0, 0.0, 1.0],
             "the parts are added",
         ),
         (
-            {"kinetic_J": (1, 2, 3), "elastic": (3, 2, 2), "sum": (4, 4, 6)},
+            {
+                "translational_on_step": (1, 2, 3),
+                "elastic": (3, 2, 2),
+                "sum": (4, 4, 6),
+            },
             [0.0, 0.0, 2.0],
             "a sum in the file is taken",
         ),
@@ -85,21 +89,24 @@ def test_balance(given, expected, why):
 
 
 def test_the_instant_before_the_first_step_has_no_account():
-    series = columns(kinetic_J=(0, 1, 2), elastic=(0, 3, 2), sum=(0, 4, 4))
+    series = columns(translational_on_step=(0, 1, 2), elastic=(0, 3, 2), sum=(0, 4, 4))
     times, errors = figure_energy.balance(series)
     assert times == [0.1, 0.2] and errors == [0.0, 0.0]
 
 
 def test_angles_and_errors_are_no_parts_of_the_energy():
     series = columns(
-        **{"kinetic_J": (1, 2, 3), "elastic": (3, 2, 1), "angle_1_rad": (1, 2, 3)},
+        **{"kinetic_half_step_J": (9, 9, 9), "translational_on_step": (1, 2, 3)},
+        **{"elastic": (3, 2, 1), "angle_1_rad": (1, 2, 3)},
         **{"angle_product": (1, 2, 3), "raw_energy_error_J": (1, 2, 3)},
     )
-    assert list(figure_energy.parts(series)) == ["kinetic", "elastic"]
+    assert list(figure_energy.parts(series)) == ["translational_on_step", "elastic"]
 
 
 def test_balance_of_nan_is_left_out_of_the_drawing():
-    series = columns(kinetic_J=(1, "NaN", "Infinity"), elastic_J=(1, 1, "-Infinity"))
+    series = columns(
+        translational_on_step_J=(1, "NaN", "Infinity"), elastic_J=(1, 1, "-Infinity")
+    )
     found = figure_energy.balance(series)[1]
     assert found[0] == 0 and math.isnan(found[1]) and math.isnan(found[2])
     ((name, _, figure),) = figure_energy.draw(only(series={("s", "double"): series}))
@@ -107,7 +114,9 @@ def test_balance_of_nan_is_left_out_of_the_drawing():
 
 
 def test_kinetic_energy_alone_is_drawn():
-    series = {("s", "float"): columns(kinetic_J=(1, 2, 3), mean_x_m=(0, 0, 0))}
+    series = {
+        ("s", "float"): columns(kinetic_half_step_J=(1, 2, 3), mean_x_m=(0, 0, 0))
+    }
     ((_, caption, figure),) = figure_energy.draw(only(series=series))
     assert "no account was kept" in caption
     figure_style.render(figure, "energy_s")

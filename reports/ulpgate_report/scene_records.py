@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from ulpgate_report import (
     chain_series,
     csv_columns,
+    figure_energy,
     reading,
     scene_files,
     type_order,
@@ -13,7 +14,7 @@ from ulpgate_report.errors import InvalidInput
 
 # More panels than these would be too small to read.
 MOST_SNAPSHOTS = 4
-_SERIES = ("step", "time_s", "kinetic_J")
+_SERIES = ("step", "time_s")
 _DIVERGENCE = ("step", "time_s", "max_position_error_m", "max_position_ulp")
 # The energies stay exact: of a long type their sum is constant far below a double's last digit.
 _INSTANT = {"step": float, "time_s": float}
@@ -71,7 +72,7 @@ def _load_records(path):
     seen, found = {}, []
     if not path.exists():
         return found
-    names = ("scene", "type", "integrator", "dt", "variant", "threads", "plan")
+    names = ("scene", "type", "integrator", "dt", "variant", "plan")
     for where, record in reading.read_lines(path, "scenes"):
         key = tuple(str(record.get(name, "")) for name in names)
         if key in seen:
@@ -90,6 +91,13 @@ def chosen(found, most=MOST_SNAPSHOTS):
     if len(found) <= most:
         return found
     return [found[i * (len(found) - 1) // (most - 1)] for i in range(most)]
+
+
+def _series_columns(path):
+    """What a series must have: its kinetic energy under the name that says the instant of the velocities."""
+    there = reading.first_line(path).split(",")
+    kinetic = [name for name in figure_energy.KINETIC if name in there]
+    return (*_SERIES, *(kinetic or figure_energy.KINETIC[:1]))
 
 
 def _without(files, drop):
@@ -117,7 +125,7 @@ def load(directory, timings, chains=()):
         records=tuple(records),
         timings=tuple(timings),
         series={
-            k: csv_columns.read(p, _SERIES, _INSTANT, decimal.Decimal)
+            k: csv_columns.read(p, _series_columns(p), _INSTANT, decimal.Decimal)
             for k, p in plain_series.items()
         },
         divergences={

@@ -218,7 +218,7 @@ def test_benchmark_takes_or_makes_the_slowdown():
 def test_null_and_infinite_values(run_directory):
     line = sample_scenes.scene_record(
         "double",
-        kinetic_energy="nan",
+        kinetic_energy_half_step_J="nan",
         max_energy_error="inf",
         energy=None,
         energy_start=None,
@@ -228,7 +228,7 @@ def test_null_and_infinite_values(run_directory):
     (run_directory / "scenes.jsonl").write_text(json.dumps(line) + "\n")
     scenes = records.load(run_directory).scenes
     (row,) = csv_rows(scene_tables.scene_table(scenes))
-    assert (row["kinetic_J"], row["max_energy_error_J"]) == ("nan", "inf")
+    assert (row["kinetic_half_step_J"], row["max_energy_error_J"]) == ("nan", "inf")
     assert (row["mean_x_m"], row["mean_y_m"]) == ("-inf", "")
     assert scene_tables.energy_table(scenes).rows == ()
     assert cli.main([str(run_directory), "--out", str(run_directory / "out")]) == 0

@@ -259,9 +259,9 @@ def test_todays_columns_keep_the_ordinary_energy_figure(suite_directory, capsys)
 
 def test_a_chain_is_told_by_its_columns(tmp_path):
     for header, expected in (
-        ("step,time_s,kinetic_J,angle_1_rad", True),
-        ("step,time_s,kinetic_J,energy_error_J", True),
-        ("step,time_s,kinetic_J,elastic", False),
+        ("step,time_s,kinetic_half_step_J,angle_1_rad", True),
+        ("step,time_s,kinetic_half_step_J,energy_error_J", True),
+        ("step,time_s,kinetic_half_step_J,elastic", False),
         ("", False),
     ):
         path = tmp_path / "s.csv"

@@ -89,11 +89,11 @@ BAD = [
     (["kernels", "--strata", "deepest", "--out", "x"], "unknown stratum"),
     (["kernels"], "--out DIR is required"),
     (["at", "sphere_sphere", "double", "1", "2"], "takes 8 numbers"),
-    (["scene", "depositoin"], "did you mean 'deposition'"),
-    (["scene", "collision", "--set", "dt=-1"], "dt"),
-    (["scene", "collision", "--set", "colour=red"], "colour"),
-    (["scene", "collision", "--record"], "--out"),
-    (["scene", "/nonexistent/scene.toml"], "/nonexistent/scene.toml"),
+    (["scene", "run", "depositoin"], "did you mean 'deposition'"),
+    (["scene", "run", "collision", "--dt", "-1"], "--dt '-1'"),
+    (["scene", "run", "collision", "--set", "colour=red"], "colour"),
+    (["scene", "run", "collision", "--record"], "--out"),
+    (["scene", "run", "/nonexistent/scene.toml"], "/nonexistent/scene.toml"),
 ]
 
 
@@ -108,14 +108,14 @@ def test_a_broken_scene_file_names_line_and_key(tmp_path):
     text = (ROOT / "kernels/scenes/collision.toml").read_text()
     file.write_text(text.replace('radius = "0.01"', 'radius = "-0.01"', 1))
     line = file.read_text().splitlines().index('radius = "-0.01"') + 1
-    code, _, err = run("scene", file)
+    code, _, err = run("scene", "run", file)
     assert code == 2 and f"mine.toml:{line}" in err and "radius" in err, err
     file.write_text(text)
-    assert run("scene", file)[0] == 0, "a user's file works like one built in"
+    assert run("scene", "run", file)[0] == 0, "a user's file works like one built in"
 
 
 def state(*words):
-    code, out, err = run("scene", *words, "--json")
+    code, out, err = run("scene", "run", *words, "--json")
     assert code == 0, err
     return [json.loads(line)["state_hash"] for line in out.splitlines()]
 
@@ -133,14 +133,14 @@ def test_threads_and_all_parts_give_the_same_bytes(scene):
 
 
 def test_deposition_facts():
-    code, out, _ = run("scene", "deposition", "--steps", "2", "--json")
+    code, out, _ = run("scene", "run", "deposition", "--steps", "2", "--json")
     record = json.loads(out)
     assert code == 0 and record["bodies"] == 10009 + 12
 
 
 def test_scene_writes_what_the_report_reads(tmp_path):
     code, _, err = run(
-        *["scene", "collision", "--types", "float,double", "--compare", "--record"],
+        *["scene", "compare", "collision", "--types", "float,double", "--record"],
         *["--snapshots", "0,1e-3", "--vtk", "--out", tmp_path],
     )
     assert code == 0, err
@@ -162,18 +162,18 @@ def test_scene_writes_what_the_report_reads(tmp_path):
 
 
 def test_the_ladder_names_the_double_mass():
-    code, out, _ = run("scene", "pendulum3", "--ladder", "--types", "mpfr62")
+    code, out, _ = run("scene", "ladder", "pendulum3", "--types", "mpfr62")
     assert code == 0 and "every constant fills its precision" in out
     code, out, _ = run(
-        *["scene", "pendulum3", "--ladder", "--types", "mpfr62"],
-        *["--variant", "mass=yade"],
+        *["scene", "ladder", "pendulum3", "--types", "mpfr62"],
+        *["--set", "mass=yade"],
     )
     assert code == 1 and "4.18879020478639" in out and "16 digits only" in out
 
 
 def test_an_interrupted_scene_says_so(tmp_path):
     process = subprocess.Popen(
-        [ULPGATE, "scene", "collision", "--steps", "100000000000", "--out", tmp_path],
+        [ULPGATE, *"scene run collision --steps 100000000000 --out".split(), tmp_path],
         stderr=subprocess.PIPE,
         text=True,
     )

@@ -52,6 +52,7 @@ def everything_in(directory):
 def test_a_trajectory_is_written_at_full_precision(tmp_path):
     code, _, err = run(
         "scene",
+        "run",
         "pendulum3",
         "--types",
         "double,mpfr62",
@@ -85,12 +86,15 @@ def test_a_trajectory_is_written_at_full_precision(tmp_path):
     row = rows["mpfr62"][-1]
     product = Decimal(row["angle_1_rad"]) * Decimal(row["angle_2_rad"])
     assert abs(product - Decimal(row["angle_product"])) < Decimal("1e-26")
-    parts = sum(Decimal(row[name]) for name in ("kinetic", "elastic", "potential"))
+    parts = sum(
+        Decimal(row[name]) for name in ("translational_on_step", "elastic", "potential")
+    )
     assert abs(parts - Decimal(row["sum"])) < Decimal("1e-33")
 
 
 RECORDED = [
     "scene",
+    "run",
     "pendulum3",
     "--types",
     "double,mpfr62",
@@ -98,7 +102,7 @@ RECORDED = [
     "0.8",
     "--record",
 ]
-RECORDED += ["--variant", "damping=5e-3", "--snapshots", "0,0.3,0.8"]
+RECORDED += ["--set", "damping=5e-3", "--snapshots", "0,0.3,0.8"]
 
 
 def test_a_killed_run_goes_on_to_the_same_bytes(tmp_path):
@@ -153,15 +157,15 @@ def test_checkpoints_are_guarded(tmp_path):
     assert code == 2 and series.name in err
     assert run(*RECORDED, "--out", tmp_path, "--overwrite")[0] == 0
     assert not (tmp_path / "checkpoints").exists()
-    code, _, err = run("scene", "pendulum3", "--steps", 10, "--resume")
+    code, _, err = run("scene", "run", "pendulum3", "--steps", 10, "--resume")
     assert code == 2 and "--out" in err
 
 
 def test_correlation_resumes_and_its_gate_catches_a_worse_run(tmp_path):
     words = [
         "scene",
+        "correlate",
         "pendulum3",
-        "--correlate",
         "--types",
         "float,double",
         "--reference",
@@ -201,7 +205,7 @@ def test_correlation_resumes_and_its_gate_catches_a_worse_run(tmp_path):
     assert (
         code == 1
         and "energy error" in out
-        and "reproduce: ulpgate scene pendulum3 --type double" in out
+        and "reproduce: ulpgate scene correlate pendulum3 --types double" in out
     )
     code, out, _ = run(*gate, "--update")
     assert code == 1 and "WOULD LOOSEN" in out
@@ -213,8 +217,9 @@ def test_correlation_resumes_and_its_gate_catches_a_worse_run(tmp_path):
 def test_all_parts_record_the_same_energies(tmp_path):
     words = [
         "scene",
+        "run",
         "pendulum3",
-        "--type",
+        "--types",
         "double",
         "--steps",
         3000,
@@ -233,8 +238,8 @@ def test_all_parts_record_the_same_energies(tmp_path):
 def test_a_setup_made_in_float_has_the_published_energy_error(tmp_path, dt, published):
     """A chaotic walk: the figures come back only where every constant has the published run's bits."""
     code, _, err = run(
-        *["scene", "pendulum3", "--types", "float", "--dt", dt, "--until", "16"],
-        *["--variant", "constants=stepwise", "--variant", "material.rod.stiffness=100"],
+        *["scene", "run", "pendulum3", "--types", "float", "--dt", dt, "--until", "16"],
+        *["--set", "constants=stepwise", "--set", "material.rod.stiffness=100"],
         *["--series", "--out", tmp_path],
     )
     assert code == 0, err
@@ -243,7 +248,7 @@ def test_a_setup_made_in_float_has_the_published_energy_error(tmp_path, dt, publ
 
 
 def test_correlation_needs_a_chain(tmp_path):
-    code, _, err = run("scene", "collision", "--correlate", "--out", tmp_path)
+    code, _, err = run("scene", "correlate", "collision", "--out", tmp_path)
     assert code == 2 and "chain" in err or "record_every" in err
 
 

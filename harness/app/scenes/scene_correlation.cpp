@@ -1,11 +1,11 @@
 // How long each type stays true: correlation of a scene's angles with a run of more digits, and what limits
 // it.
+#include "harness/app/scenes/scene_correlation.hpp"
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "harness/app/scenes/scene_run.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/store/context.hpp"
@@ -64,18 +64,37 @@ std::string limit_of(const Truth& t, const Truth& digits, const Truth& step) {
   return t.t_s < step.t_s ? "rounding" : "time-stepping";
 }
 
+void print_reference(const SceneJob& job, const std::string& reference, double record_s, const Truth& digits,
+                     const Truth& step) {
+  fmt::print(
+      "{}: t_s, the time for which angles correlate over {} with the {} run, chunks of {} records of {:g} "
+      "s\n",
+      job.loaded.scene.name, rule.limit, reference, rule.chunk, record_s);
+  fmt::print("{:<18} {:>10} s  against its own RealHP<4>\n", reference, shown(digits));
+  fmt::print("{:<18} {:>10} s  against half its step: beyond it, time-stepping is the limit\n", reference,
+             shown(step));
+}
+
+void print_truth(const std::string& token, const Truth& t, const std::string& limit, const FinishedRun& run) {
+  fmt::print("{:<18} {:>10} s  limited by {}{}\n", token, shown(t), limit,
+             run.engine->energy_names().empty()
+                 ? ""
+                 : fmt::format("; largest energy error {:.3e} J, with half-step velocities {:.3e} J",
+                               run.statistics.averaged.largest(), run.statistics.raw.largest()));
+}
+
 }  // namespace
 
-ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::vector<std::string>& types,
-                         const std::filesystem::path& out) {
+ExitCode correlate_scene(const SceneJob& job, const CorrelationRequest& c, const RecordRequest& records) {
+  const std::filesystem::path& out = records.out;
   if (job.record_every == 0)
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: --correlate needs run.record_every in the scene", o.name));
+    throw Failure(ExitCode::bad_input, fmt::format("{}: a correlation needs run.record_every in the scene",
+                                                   job.loaded.scene.name));
   if (!job.loaded.scene.records("angles"))
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: --correlate needs a chain of bodies whose angles are recorded: record = "
+                  fmt::format("{}: a correlation needs a chain of bodies whose angles are recorded: record = "
                               "[\"angles\"]",
-                              o.name));
+                              job.loaded.scene.name));
   const auto stop_if_interrupted = [&] {
     if (interrupted())
       throw Failure(ExitCode::incomplete, out.empty() ? "interrupted" : "interrupted; go on with --resume");
@@ -83,22 +102,22 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
   const InterruptGuard guard;
   std::string scene_rows;
   const auto add_scene_row = [&](const FinishedRun& run, const std::string& token) {
-    scene_rows += scene_row(run, token, job, o).dump() + "\n";
+    scene_rows += scene_row(run, token, job).dump() + "\n";
   };
   const auto run_of = [&](const std::string& token, dem::Level level, const SceneJob& what,
                           const std::string& suffix) {
-    const bool plain = suffix.empty();
     RunRequest request;
     request.token = token;
     request.level = level;
     request.stem = stem_of(job, token) + suffix;
     request.label = request.stem;
-    request.trajectory = o.record && plain && !out.empty();
-    FinishedRun run = run_to_end(request, what, o, out);
+    RecordRequest wanted = records;
+    wanted.trajectory = records.trajectory && suffix.empty();
+    FinishedRun run = run_to_end(request, what, wanted);
     stop_if_interrupted();
     return run;
   };
-  const FinishedRun reference_run = run_of(o.reference, dem::Level::own, job, "");
+  const FinishedRun reference_run = run_of(c.reference, dem::Level::own, job, "");
   const std::vector<double>& reference = reference_run.statistics.products;
   const double record_s = reference_run.engine->time_s() /
                           static_cast<double>(std::max<std::uint64_t>(1, reference_run.engine->iteration())) *
@@ -106,18 +125,12 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
 
   // The reference is as good as these: four times its digits, and half its step.
   const Truth digits = truth_of(
-      reference, run_of(o.reference, dem::Level::reference, job, "_RealHP4").statistics.products, record_s);
+      reference, run_of(c.reference, dem::Level::reference, job, "_RealHP4").statistics.products, record_s);
   const Truth step =
-      truth_of(reference, run_of(o.reference, dem::Level::own, halved(job), "_half_step").statistics.products,
+      truth_of(reference, run_of(c.reference, dem::Level::own, halved(job), "_half_step").statistics.products,
                record_s);
 
-  fmt::print(
-      "{}: t_s, the time for which angles correlate over {} with the {} run, chunks of {} records of {:g} "
-      "s\n",
-      job.loaded.scene.name, rule.limit, o.reference, rule.chunk, record_s);
-  fmt::print("{:<18} {:>10} s  against its own RealHP<4>\n", o.reference, shown(digits));
-  fmt::print("{:<18} {:>10} s  against half its step: beyond it, time-stepping is the limit\n", o.reference,
-             shown(step));
+  if (!c.json) print_reference(job, c.reference, record_s, digits, step);
   std::string text;
   const auto add = [&](const std::string& type, const std::string& against, const Truth& t,
                        const std::string& limit) {
@@ -125,9 +138,9 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
                     {"scene", job.loaded.scene.name},
                     {"type", type},
                     {"against", against},
-                    {"integrator", o.integrator},
+                    {"integrator", job.integrator},
                     {"dt", job.loaded.scene.dt},
-                    {"variant", fmt::format("{}", fmt::join(o.overrides, ","))},
+                    {"variant", job.variant},
                     {"t_s", t.t_s},
                     {"to_the_end", t.to_the_end},
                     {"limited_by", limit},
@@ -138,10 +151,10 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
     write_file(out / "correlation" / fmt::format("{}_{}_{}.csv", job.loaded.scene.name, type, against),
                csv(t, record_s));
   };
-  add(o.reference, "RealHP4", digits, digits.to_the_end ? "the end of the run" : "rounding");
-  add(o.reference, "half_step", step, step.to_the_end ? "the end of the run" : "time-stepping");
-  for (const auto& token : types) {
-    if (token == o.reference) {
+  add(c.reference, "RealHP4", digits, digits.to_the_end ? "the end of the run" : "rounding");
+  add(c.reference, "half_step", step, step.to_the_end ? "the end of the run" : "time-stepping");
+  for (const auto& token : c.types) {
+    if (token == c.reference) {
       add_scene_row(reference_run, token);
       continue;
     }
@@ -149,22 +162,18 @@ ExitCode correlate_scene(const SceneJob& job, const SceneOptions& o, const std::
     add_scene_row(run, token);
     const Truth t = truth_of(run.statistics.products, reference, record_s);
     const std::string limit = limit_of(t, digits, step);
-    fmt::print("{:<18} {:>10} s  limited by {}{}\n", token, shown(t), limit,
-               run.engine->energy_names().empty()
-                   ? ""
-                   : fmt::format("; largest energy error {:.3e} J, with half-step velocities {:.3e} J",
-                                 run.statistics.averaged.largest(), run.statistics.raw.largest()));
-    add(token, o.reference, t, limit);
+    if (!c.json) print_truth(token, t, limit, run);
+    add(token, c.reference, t, limit);
   }
   if (!out.empty()) {
     write_file(out / "correlation.jsonl", text);
     write_file(out / scene_records_file, scene_rows);
     const Json context =
-        make_scene_context(job.plan, job.plan_text, types, static_cast<unsigned>(o.threads), true);
+        make_scene_context(job.plan, job.plan_text, c.types, static_cast<unsigned>(job.threads), true);
     write_file(out / "context.json", context.dump(2) + "\n");
     remove_checkpoints(out);
   }
-  if (o.json) fmt::print("{}", text);
+  if (c.json) fmt::print("{}", text);
   return ExitCode::pass;
 }
 

@@ -6,6 +6,7 @@
 
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/files.hpp"
+#include "harness/app/shell/selection.hpp"
 #include "harness/app/store/records.hpp"
 
 namespace ulpgate::app {
@@ -43,6 +44,12 @@ std::string quoted(const std::string& text) {
   return '"' + out + '"';
 }
 
+// Expressions hold brackets and stars, which a shell would take.
+std::string shell_word(const std::string& text) {
+  const bool plain = text.find_first_of("()* ") == std::string::npos;
+  return plain ? text : "'" + text + "'";
+}
+
 }  // namespace
 
 bool has_scene_records(const std::filesystem::path& directory) {
@@ -67,17 +74,18 @@ std::vector<SceneMeasurement> read_scene_measurements(const std::filesystem::pat
       m.max_energy_error = number_at(j, "max_energy_error");
       m.max_energy_error_raw = number_at(j, "max_energy_error_raw");
     }
-    m.reproduce = fmt::format("ulpgate scene {} --type {} --dt {} --steps {} --series --out DIR", m.scene,
-                              m.type, dt, steps);
+    const std::string run =
+        fmt::format("{} --types {} --dt {} --steps {}", m.scene, m.type, shell_word(dt), steps);
+    m.reproduce = fmt::format("ulpgate scene run {} --series --out DIR", run);
     for (const Json& c : correlations) {
       if (c["type"] != m.type || c["against"] == "RealHP4" || c["against"] == "half_step") continue;
       m.t_s = number_at(c, "t_s");
-      m.reproduce = fmt::format(
-          "ulpgate scene {} --type {} --dt {} --steps {} --correlate --reference {} --series "
-          "--out DIR",
-          m.scene, m.type, dt, steps, c["against"].get<std::string>());
+      m.reproduce = fmt::format("ulpgate scene correlate {} --reference {} --series --out DIR", run,
+                                c["against"].get<std::string>());
     }
-    if (!variant.empty()) m.reproduce += " --variant " + variant;
+    const std::string integrator = j.value("integrator", "leapfrog");
+    if (integrator != "leapfrog") m.reproduce += " --integrator " + integrator;
+    for (const auto& change : split(variant, ',')) m.reproduce += " --set " + shell_word(change);
     measured.push_back(std::move(m));
   }
   return measured;

@@ -1,15 +1,20 @@
-// SceneJob: options to scene, steps and plan.
+// SceneJob: a request to scene, steps and plan.
 #include "harness/app/scenes/scene_job.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
+#include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/core/arguments/random_words.hpp"
 #include "harness/core/orders/order_engine.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
 #include "kernels/scenes/reader/expression.hpp"
+#include "kernels/scenes/reader/scene_reader.hpp"
 #include "kernels/scenes/reader/scene_steps.hpp"
 
 namespace ulpgate::app {
@@ -17,6 +22,10 @@ namespace ulpgate::app {
 namespace {
 
 constexpr std::string_view leapfrog = "leapfrog";
+
+Failure refused(const std::string& option, const std::string& value, const std::string& why) {
+  return {ExitCode::bad_input, fmt::format("{} '{}': {}", option, value, why)};
+}
 
 void check_integrator(const std::string& name) {
   std::vector<std::string> splitting;
@@ -27,49 +36,110 @@ void check_integrator(const std::string& name) {
     unknown_name("integrator of scenes", name, splitting);
 }
 
+// Options of their own would otherwise stand twice, and the record name one of the two.
+void check_overrides(const std::vector<std::string>& overrides) {
+  for (const auto& text : overrides) {
+    const std::string key = text.substr(0, text.find('='));
+    if (key == "dt" || key == "until")
+      throw Failure(ExitCode::bad_input, fmt::format("--set {}: use --{}", text, key));
+  }
+}
+
+// An option that changes one number of the scene.
+void change(LoadedScene& loaded, const std::string& key, const std::optional<std::string>& value) {
+  if (!value) return;
+  if (const auto error = scenes::apply_override(loaded.scene, key + "=" + *value))
+    throw refused("--" + key, *value, error->message);
+  loaded.text += "\n# " + key + "=" + *value;
+}
+
+std::uint64_t steps_of(const LoadedScene& loaded, const SceneRequest& request) {
+  if (request.steps) return parse_steps("--steps", *request.steps);
+  const std::uint64_t steps = scenes::steps_until_end(loaded.scene);
+  if (steps == 0 || steps > most_steps) {
+    throw refused(request.until ? "--until" : request.name + ": run.until", loaded.scene.until,
+                  fmt::format("{} steps of {} s: a run takes 1 to {}", steps, loaded.scene.dt, most_steps));
+  }
+  return steps;
+}
+
+std::vector<std::uint64_t> snapshot_steps_of(const LoadedScene& loaded, const std::string& text,
+                                             std::uint64_t steps) {
+  std::vector<std::uint64_t> found;
+  scenes::Evaluator<double> evaluate;
+  for (const auto& [name, value] : loaded.scene.constants) evaluate.define(name, evaluate(value));
+  for (const auto& time : split(text, ',')) {
+    try {
+      const double seconds = evaluate(time);
+      if (!std::isfinite(seconds) || seconds < 0)
+        throw refused("--snapshots", text, fmt::format("{} s is no time of the run", time));
+      found.push_back(scenes::steps_for(loaded.scene, time));
+    } catch (const scenes::ExpressionError& e) {
+      throw refused("--snapshots", text, e.what());
+    }
+    if (found.back() > steps)
+      throw refused("--snapshots", text, fmt::format("{} s lies beyond the end of the run", time));
+  }
+  if (found.empty()) throw refused("--snapshots", text, "names no time");
+  return found;
+}
+
 }  // namespace
 
-SceneJob make_job(const SceneOptions& o) {
+std::uint64_t parse_steps(const std::string& option, const std::string& text) {
+  std::uint64_t steps = 0;
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, steps);
+  if (parsed.ec != std::errc() || parsed.ptr != end || steps == 0 || steps > most_steps)
+    throw refused(option, text, fmt::format("want a whole number from 1 to {}", most_steps));
+  return steps;
+}
+
+SceneJob make_job(const SceneRequest& request) {
+  check_overrides(request.overrides);
   SceneJob job;
-  auto overrides = o.overrides;
-  if (!o.dt.empty()) overrides.push_back("dt=" + o.dt);
-  if (!o.until.empty()) overrides.push_back("until=" + o.until);
-  job.loaded = load_scene(o.name, overrides);
+  job.loaded = load_scene(request.name, request.overrides);
   scenes::Scene& scene = job.loaded.scene;
+  change(job.loaded, "dt", request.dt);
+  change(job.loaded, "until", request.until);
   // A record of a run keeps the energy account unless the scene's author left it out on purpose for a
   // comparison.
-  if ((o.record || o.series) && !scene.records("energy")) {
+  if (request.energy && !scene.records("energy")) {
     scene.record.emplace_back("energy");
     job.loaded.text += "\n# record energy";
   }
-  job.steps = o.steps != 0 ? o.steps : scenes::steps_until_end(scene);
-  if (job.steps == 0) throw Failure(ExitCode::bad_input, fmt::format("{}: no step to take", o.name));
+  job.steps = steps_of(job.loaded, request);
   job.record_every = scenes::steps_between_records(scene);
-  for (const auto& time : split(o.snapshots, ',')) {
-    try {
-      job.snapshot_steps.push_back(scenes::steps_for(scene, time));
-    } catch (const scenes::ExpressionError& e) {
-      throw Failure(ExitCode::bad_input, fmt::format("--snapshots: {}", e.what()));
-    }
-  }
-  check_integrator(o.integrator);
-  const std::string integrator = o.integrator == leapfrog ? "" : "integrator " + o.integrator + "\n";
+  if (request.snapshots) job.snapshot_steps = snapshot_steps_of(job.loaded, *request.snapshots, job.steps);
+  check_integrator(request.integrator);
+  job.variant = fmt::format("{}", fmt::join(request.overrides, ","));
+  job.integrator = request.integrator;
+  job.threads = request.threads;
+  job.all_parts = request.all_parts;
+  const std::string integrator = job.integrator == leapfrog ? "" : "integrator " + job.integrator + "\n";
   job.plan_text = fmt::format("ulpgate scene plan\n{}steps {}\nscene {:016x}\n{}\n", integrator, job.steps,
                               fnv1a(job.loaded.text), job.loaded.text);
   job.plan = fmt::format("{:016x}", fnv1a(job.plan_text));
   return job;
 }
 
-std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const SceneJob& job,
-                                          const SceneOptions& o, bool all_parts) {
-  auto engine = dem::make_engine(token, level, job.loaded.scene, {all_parts, o.threads});
-  if (o.integrator == leapfrog) return engine;
+std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const SceneJob& job) {
+  auto engine = dem::make_engine(token, level, job.loaded.scene, {job.all_parts, job.threads});
+  if (job.integrator == leapfrog) return engine;
   try {
-    engine->set_flow(find_order_engine(token)->flow(o.integrator));
+    engine->set_flow(find_order_engine(token)->flow(job.integrator));
   } catch (const std::invalid_argument& e) {
-    throw Failure(ExitCode::bad_input, fmt::format("--integrator {}: {}", o.integrator, e.what()));
+    throw Failure(ExitCode::bad_input, fmt::format("--integrator {}: {}", job.integrator, e.what()));
   }
   return engine;
+}
+
+Velocities velocities_of(const SceneJob& job) {
+  return job.integrator == leapfrog ? Velocities::half_step : Velocities::on_step;
+}
+
+std::string name_of(Velocities velocities) {
+  return velocities == Velocities::half_step ? "half_step" : "on_step";
 }
 
 }  // namespace ulpgate::app

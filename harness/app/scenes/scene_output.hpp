@@ -13,7 +13,8 @@ namespace ulpgate::app {
 [[nodiscard]] std::array<double, 3> mean_position(const dem::DemEngine& engine);
 // Of every bit of positions, velocities and angular velocities.
 [[nodiscard]] std::uint64_t state_hash(const dem::DemEngine& engine);
-// body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s
+// body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s; kinetic_J is of translation alone, from the velocities as
+// the state holds them.
 [[nodiscard]] std::string snapshot_csv(const dem::DemEngine& engine);
 // Legacy VTK, ASCII: spheres as points with radius, speed and kinetic energy, facets as triangles.
 [[nodiscard]] std::string vtk_text(const dem::DemEngine& engine, const std::string& title);
@@ -22,7 +23,7 @@ namespace ulpgate::app {
 [[nodiscard]] std::string contact_differences_csv(const std::vector<Divergence>& rows);
 // " 3-7 4-9", the first few.
 [[nodiscard]] std::string pair_names(const std::vector<dem::BodyPair>& pairs);
-// The energy account as an object, null where none is kept.
+// The energy account as an object (names of DemEngine::energy_names, J), null where none is kept.
 [[nodiscard]] Json energy_json(const dem::DemEngine& engine);
 
 }  // namespace ulpgate::app

@@ -39,7 +39,7 @@ Sums sums_of(const dem::DemEngine& engine, int bits) {
   engine.energy_exact("sum", part);
   mpfr_set(s.averaged, part, MPFR_RNDN);
   mpfr_set(s.raw, part, MPFR_RNDN);
-  for (const char* name : {"kinetic", "rotational"}) {
+  for (const char* name : {"translational_on_step", "rotational_on_step"}) {
     engine.energy_exact(name, part);
     mpfr_sub(s.raw, s.raw, part, MPFR_RNDN);
   }
@@ -63,7 +63,7 @@ SceneRecorder::SceneRecorder(std::filesystem::path out, RecordPlan plan, const d
 }
 
 std::string SceneRecorder::header(const dem::DemEngine& engine) const {
-  std::string text = "step,time_s,kinetic_J";
+  std::string text = "step,time_s,kinetic_" + name_of(plan_.velocities) + "_J";
   for (const auto& name : energy_names_) text += "," + name;
   if (!energy_names_.empty()) text += ",energy_error_J,raw_energy_error_J";
   if (plan_.chain) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/app/scenes/scene_job.hpp"
 #include "harness/app/shell/append_file.hpp"
 #include "harness/core/scenes/energy_drift.hpp"
 #include "kernels/dem/engine/engine.hpp"
@@ -18,12 +19,13 @@ struct RecordPlan {
   std::string stem;                // of every file, <scene>_<type> of an ordinary run
   std::string plan;                // hash; a checkpoint of another plan is refused
   std::uint64_t record_every = 0;  // steps between records
-  bool chain = false;              // the scene records the angles of a chain of bodies
-  bool series = false;             // write series/<stem>.csv
-  bool trajectory = false;         // write trajectory/<stem>.csv
-  int digits = 17;                 // decimal digits that identify a number of the type
-  int bits = 53;                   // of the type
-  double checkpoint_s = 30;        // between checkpoints
+  Velocities velocities = Velocities::half_step;
+  bool chain = false;        // the scene records the angles of a chain of bodies
+  bool series = false;       // write series/<stem>.csv
+  bool trajectory = false;   // write trajectory/<stem>.csv
+  int digits = 17;           // decimal digits that identify a number of the type
+  int bits = 53;             // of the type
+  double checkpoint_s = 30;  // between checkpoints
 };
 
 // What is known of a run from the rows of its series.
@@ -35,7 +37,8 @@ struct SceneStatistics {
   std::vector<double> products;
 };
 
-// Columns of the series: step, time_s, kinetic_J, the energy account by its names, energy_error_J and
+// Columns of the series: step, time_s, kinetic_half_step_J or kinetic_on_step_J (translation and rotation, of
+// the velocities as the state holds them), the energy account by its names, energy_error_J and
 // raw_energy_error_J (against the account of the first step, subtracted exactly), angle_<i>_rad,
 // angle_product, mean_x_m, mean_y_m, mean_z_m; numbers as doubles. Columns of the trajectory: step, time_s,
 // the angles and their product, x_i, y_i, z_i, vx_i, vy_i, vz_i of every movable body i, the energy account;

@@ -2,9 +2,13 @@
 #include "harness/app/scenes/scene_run.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 
 #include "harness/app/scenes/scene_output.hpp"
 #include "harness/app/shell/files.hpp"
@@ -16,30 +20,31 @@ namespace ulpgate::app {
 
 namespace {
 
-void write_picture(const SceneOptions& o, const std::filesystem::path& out, const std::string& stem,
-                   const dem::DemEngine& engine) {
+void write_picture(const RecordRequest& records, const std::string& stem, const dem::DemEngine& engine) {
+  const std::filesystem::path& out = records.out;
   const std::string name = fmt::format("{}_{}", stem, engine.iteration());
   make_directory(out / "snapshots");
   write_file(out / "snapshots" / (name + ".csv"), snapshot_csv(engine));
-  if (o.vtk) {
+  if (records.vtk) {
     make_directory(out / "vtk");
     write_file(out / "vtk" / (name + ".vtk"), vtk_text(engine, name));
   }
 }
 
-RecordPlan record_plan(const RunRequest& request, const SceneJob& job, const SceneOptions& o) {
+RecordPlan record_plan(const RunRequest& request, const SceneJob& job, const RecordRequest& records) {
   const FloatFormat& format = type_or_fail(request.token).format;
   RecordPlan plan;
   plan.stem = request.stem;
   plan.plan = job.plan;
   plan.record_every = job.record_every;
   plan.chain = job.loaded.scene.records("angles");
-  plan.series = o.record || o.series || o.correlate;
-  plan.trajectory = request.trajectory;
+  plan.velocities = velocities_of(job);
+  plan.series = records.series;
+  plan.trajectory = records.trajectory;
   plan.bits = static_cast<int>(format.precision) * static_cast<int>(request.level);
   // Decimal digits that tell any two numbers of that many bits apart: ceil(1 + bits log10(2)).
   plan.digits = 2 + plan.bits * 30103 / 100000;
-  plan.checkpoint_s = o.checkpoint_seconds;
+  plan.checkpoint_s = records.checkpoint_s;
   return plan;
 }
 
@@ -49,22 +54,21 @@ std::string stem_of(const SceneJob& job, const std::string& token) {
   return fmt::format("{}_{}", job.loaded.scene.name, token);
 }
 
-FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const SceneOptions& o,
-                       const std::filesystem::path& out) {
+FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const RecordRequest& records) {
   FinishedRun run;
-  run.engine = engine_of(request.token, request.level, job, o, o.all_parts);
+  run.engine = engine_of(request.token, request.level, job);
   dem::DemEngine& engine = *run.engine;
   std::unique_ptr<dem::DemEngine> reference;
   if (request.compare) {
-    reference = engine_of(request.token, dem::Level::reference, job, o, o.all_parts);
-    reference->restore(engine.save(), o.own_constants ? dem::Constants::own : dem::Constants::from_text);
+    reference = engine_of(request.token, dem::Level::reference, job);
+    reference->restore(engine.save(), *request.compare);
   }
   const auto compare_at = request.compare ? comparison_steps(job.steps) : std::vector<std::uint64_t>();
-  const bool pictures = !out.empty() && request.level == dem::Level::own;
-  SceneRecorder recorder(out, record_plan(request, job, o), engine);
+  const bool pictures = !records.out.empty() && request.level == dem::Level::own;
+  SceneRecorder recorder(records.out, record_plan(request, job, records), engine);
   const InterruptGuard guard;
   Progress progress(request.label);
-  if (!o.resume || !recorder.resume(engine)) {
+  if (!records.resume || !recorder.resume(engine)) {
     recorder.begin();
     recorder.add(engine);
   }
@@ -74,7 +78,7 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Sce
   while (engine.iteration() < job.steps && !interrupted()) {
     const std::uint64_t now = engine.iteration();
     if (pictures && std::ranges::count(job.snapshot_steps, now) != 0)
-      write_picture(o, out, request.stem, engine);
+      write_picture(records, request.stem, engine);
     std::uint64_t until = std::min(job.steps, now + most);
     if (job.record_every != 0) until = std::min(until, (now / job.record_every + 1) * job.record_every);
     if (next_compare != compare_at.end()) until = std::min(until, *next_compare);
@@ -96,7 +100,7 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Sce
   }
   run.complete = engine.iteration() == job.steps;
   if (pictures && run.complete && std::ranges::count(job.snapshot_steps, engine.iteration()) != 0)
-    write_picture(o, out, request.stem, engine);
+    write_picture(records, request.stem, engine);
   // Also of a run that is complete: others of the same command may not be.
   if (!reference) recorder.checkpoint(engine);
   recorder.close();
@@ -104,7 +108,7 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Sce
   return run;
 }
 
-Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob& job, const SceneOptions& o) {
+Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob& job) {
   const dem::DemEngine& engine = *run.engine;
   const SceneStatistics& s = run.statistics;
   Json left_out = Json::array();
@@ -114,16 +118,15 @@ Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob&
   Json j;
   j["scene"] = job.loaded.scene.name;
   j["type"] = token;
-  j["integrator"] = o.integrator;
+  j["integrator"] = job.integrator;
   j["dt"] = job.loaded.scene.dt;
-  j["variant"] = fmt::format("{}", fmt::join(o.overrides, ","));
+  j["variant"] = job.variant;
   j["steps"] = engine.iteration();
   j["t_end"] = engine.time_s();
   j["bodies"] = engine.bodies();
   j["contacts"] = engine.contacts().size();
-  j["threads"] = o.threads;
   j["parts_left_out"] = left_out;
-  j["kinetic_energy"] = engine.kinetic_energy();
+  j["kinetic_energy_" + name_of(velocities_of(job)) + "_J"] = engine.kinetic_energy();
   j["mean_position"] = mean_position(engine);
   j["energy"] = energy_json(engine);
   j["energy_start"] = s.energy_start;
@@ -135,6 +138,21 @@ Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob&
   j["memory_bytes"] = engine.memory_bytes();
   j["plan"] = job.plan;
   return j;
+}
+
+// Threads that wait for each other's parts of a step must sleep where other programs share the cores:
+// spinning costs ten times the step.  libgomp reads its policy before main, so the program starts itself
+// again with it.
+void let_waiting_threads_sleep(int threads) {
+  if (threads < 2 || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+  ::setenv("OMP_WAIT_POLICY", "passive", 1);
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::string words((std::istreambuf_iterator<char>(in)), {});
+  std::vector<char*> argv;
+  for (std::size_t at = 0; at < words.size(); at += std::strlen(&words[at]) + 1) argv.push_back(&words[at]);
+  argv.push_back(nullptr);
+  // Where that fails the run is slower and no less right.
+  ::execv("/proc/self/exe", argv.data());
 }
 
 }  // namespace ulpgate::app

@@ -9,7 +9,7 @@ namespace ulpgate {
 namespace {
 
 SceneMeasurement run_of_double(double t_s, double energy) {
-  return {"pendulum3", "double", "dt=1e-5 steps=100", t_s, energy, 2 * energy, "ulpgate scene pendulum3"};
+  return {"pendulum3", "double", "dt=1e-5 steps=100", t_s, energy, 2 * energy, "ulpgate scene run pendulum3"};
 }
 
 SceneBudgets budgets_of(const SceneMeasurement& m) {
@@ -32,7 +32,7 @@ TEST(SceneBudgets, AShorterTruthAndALargerErrorFailWorstFirst) {
   EXPECT_EQ(found[2].message, "true for 2.3 s, budget 2.45 s");
   for (const auto& f : found) {
     EXPECT_EQ(f.kind, FindingKind::regression);
-    EXPECT_EQ(f.at, std::vector<std::string>{"ulpgate scene pendulum3"});
+    EXPECT_EQ(f.at, std::vector<std::string>{"ulpgate scene run pendulum3"});
   }
   EXPECT_EQ(judge_scenes({run_of_double(NAN, NAN)}, budgets, MissingRecords::fail).size(), 3U);
 }

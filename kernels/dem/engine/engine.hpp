@@ -75,14 +75,17 @@ class DemEngine {
   // kn, ks, cn, cs of a touching pair as the engine holds them (hexfloat, "0x0p+0" where left out).
   [[nodiscard]] virtual std::vector<std::string> contact_constants(BodyPair pair) const = 0;
 
-  // "kinetic", "rotational", "elastic", "potential", "friction", "damping", "viscous", "broken", "work",
-  // "sum", in joule; empty where the account is not kept.  They belong to the positions before the last step,
-  // with the mean of the half-step velocities around it: sum is then constant up to O(dt^2).
+  // "translational_on_step", "rotational_on_step", "elastic", "potential", "friction", "damping", "viscous",
+  // "broken", "work", "sum", in joule; empty where the account is not kept.  They belong to the positions
+  // before the last step, with the mean of the half-step velocities around it (the velocity on the step): sum
+  // is then constant up to O(dt^2).  Of a composition method they belong to the state itself.
   [[nodiscard]] virtual std::vector<std::string> energy_names() const = 0;
+  // Throws std::invalid_argument where no energy has this name.
   [[nodiscard]] virtual double energy(std::string_view name) const = 0;
   virtual void energy_exact(std::string_view name, mpfr_ptr out) const = 0;
-  // Kinetic energy of all movable bodies from the half-step velocities, translation and rotation; always
-  // there.
+  // Kinetic energy of all movable bodies, translation and rotation, in joule, from the velocities as the
+  // state holds them; always there.  Those of the leapfrog are half a step before the positions, which is
+  // another number than the account's; those of a composition method are of the same instant.
   [[nodiscard]] virtual double kinetic_energy() const = 0;
   virtual void kinetic_energy_exact(mpfr_ptr out) const = 0;
   // Critical steps in seconds by name: "p_wave", "rayleigh" of spheres and materials, "stiffness" of the

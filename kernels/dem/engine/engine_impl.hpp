@@ -2,6 +2,8 @@
 // type.
 #pragma once
 
+#include <stdexcept>
+
 #include "kernels/dem/engine/engine.hpp"
 #include "kernels/dem/formulas/critical_step.hpp"
 #include "kernels/dem/step/simulation.hpp"
@@ -72,8 +74,16 @@ class TypedEngine final : public DemEngine {
 
   [[nodiscard]] std::vector<std::string> energy_names() const override {
     if (!s().parts.energy) return {};
-    return {"kinetic", "rotational", "elastic", "potential", "friction",
-            "damping", "viscous",    "broken",  "work",      "sum"};
+    return {"translational_on_step",
+            "rotational_on_step",
+            "elastic",
+            "potential",
+            "friction",
+            "damping",
+            "viscous",
+            "broken",
+            "work",
+            "sum"};
   }
   [[nodiscard]] double energy(std::string_view name) const override {
     return static_cast<double>(energy_value(name));
@@ -127,8 +137,8 @@ class TypedEngine final : public DemEngine {
 
   [[nodiscard]] Real energy_value(std::string_view name) const {
     const Energies<Real>& e = s().energies;
-    if (name == "kinetic") return e.kinetic;
-    if (name == "rotational") return e.rotational;
+    if (name == "translational_on_step") return e.kinetic;
+    if (name == "rotational_on_step") return e.rotational;
     if (name == "elastic") return e.elastic;
     if (name == "potential") return e.potential;
     if (name == "friction") return e.friction;
@@ -136,7 +146,8 @@ class TypedEngine final : public DemEngine {
     if (name == "viscous") return e.viscous;
     if (name == "broken") return e.broken;
     if (name == "work") return e.work;
-    return e.sum();
+    if (name == "sum") return e.sum();
+    throw std::invalid_argument("no energy '" + std::string(name) + "'");
   }
 
   [[nodiscard]] Real kinetic_sum() const {

@@ -1,0 +1,213 @@
+"""Tests of the verbs below `scene`: their options, what they refuse, what they print and write."""
+
+import csv
+import json
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
+VERBS = "run explain compare ladder correlate speed".split()
+MODEL = {"--types", "--set", "--dt", "--help"}
+LENGTH = {"--integrator", "--until", "--steps", "--threads", "--all-parts", "--json"}
+RECORD = {"--out", "--record", "--series", "--snapshots", "--vtk", "--overwrite"}
+CHECKPOINTS = {"--resume", "--checkpoint-seconds"}
+OPTIONS = {
+    "run": MODEL | LENGTH | RECORD | CHECKPOINTS,
+    "explain": MODEL | {"--threads"},
+    "compare": MODEL | LENGTH | RECORD | {"--own-constants"},
+    "ladder": MODEL,
+    "correlate": MODEL | LENGTH | RECORD | CHECKPOINTS | {"--reference"},
+    "speed": MODEL | LENGTH | {"--out", "--repeats"},
+}
+EVERY = sorted(set().union(*OPTIONS.values()) - {"--help"})
+FLAGS = (
+    "--all-parts --json --record --series --vtk --overwrite --resume --own-constants"
+)
+
+
+def run(*words):
+    done = subprocess.run(
+        [ULPGATE, *map(str, words)], capture_output=True, text=True, cwd=ROOT
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_help_has_a_purpose_two_examples_and_exactly_the_options(verb):
+    code, out, _ = run("scene", verb, "--help")
+    assert code == 0
+    assert out.splitlines()[0].strip(), "its purpose in one line"
+    assert out.count(f"\n  ulpgate scene {verb} ") == 2
+    shown = {
+        word.rstrip(",")
+        for line in out.splitlines()
+        if line.startswith("  -")
+        for word in line.split()[0].split(",")
+        if word.startswith("--")
+    }
+    assert shown == OPTIONS[verb]
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_a_verb_refuses_the_options_of_others(verb):
+    for option in sorted(set(EVERY) - OPTIONS[verb]):
+        value = [] if option in FLAGS.split() else ["1"]
+        code, _, err = run("scene", verb, "collision", option, *value)
+        assert code == 2 and option in err, (option, err)
+
+
+OLD = [
+    ("pendulum3", "ulpgate scene run pendulum3"),
+    ("pendulum3 --explain", "ulpgate scene explain pendulum3"),
+    ("--types double pendulum3 --explain", "ulpgate scene explain pendulum3"),
+    ("deposition --steps 9 --compare", "ulpgate scene compare deposition"),
+    ("pendulum3 --ladder --types mpfr62", "ulpgate scene ladder pendulum3"),
+    ("pendulum3 --correlate --series", "ulpgate scene correlate pendulum3"),
+    ("deposition --repeats 10 --out T", "ulpgate scene speed deposition"),
+    ("mine.toml --steps 3", "ulpgate scene run mine.toml"),
+    ("run pendulum3 --explain", "ulpgate scene explain pendulum3"),
+    ("run pendulum3 --compare", "ulpgate scene compare pendulum3"),
+    ("run pendulum3 --type double", "--types"),
+    ("run pendulum3 --type=double", "--types"),
+    ("run pendulum3 --variant mass=yade", "--set"),
+    ("run pendulum3 --set dt=1e-6", "--dt"),
+    ("run pendulum3 --set until=1", "--until"),
+    ("--json run pendulum3", "ulpgate scene run SCENE --json"),
+    ("run pendulum3 collision", "'collision'"),
+    ("", "name a verb"),
+]
+
+
+@pytest.mark.parametrize("words,message", OLD)
+def test_other_spellings_are_refused_with_the_one(words, message):
+    code, out, err = run("scene", *words.split())
+    assert code == 2 and message in err and out == "", err
+
+
+BAD_VALUES = [
+    (["--steps", "0"], "--steps", "'0'"),
+    (["--steps", "-1"], "--steps", "'-1'"),
+    (["--steps", "1.5"], "--steps", "'1.5'"),
+    (["--steps", ""], "--steps", "''"),
+    (["--steps", "18446744073709551616"], "--steps", "'18446744073709551616'"),
+    (["--steps", "9007199254740993"], "--steps", "'9007199254740993'"),
+    (["--dt", ""], "--dt", "''"),
+    (["--dt", "-1e-6"], "--dt", "'-1e-6'"),
+    (["--dt", "fast"], "--dt", "'fast'"),
+    (["--until", ""], "--until", "''"),
+    (["--until", "0"], "--until", "'0'"),
+    (["--until", "1e-9"], "--until", "'1e-9'"),
+    (["--until", "1e300"], "--until", "'1e300'"),
+    (["--until", "1e-3", "--steps", "5"], "--until", "--steps"),
+    (["--snapshots", "-1", "--out", "OUT"], "--snapshots", "'-1'"),
+    (["--snapshots", "", "--out", "OUT"], "--snapshots", "''"),
+    (["--snapshots", "0,1/0", "--out", "OUT"], "--snapshots", "'0,1/0'"),
+    (["--snapshots", "0,7", "--out", "OUT"], "--snapshots", "'0,7'"),
+    (["--snapshots", "0"], "--snapshots", "--out"),
+    (["--vtk", "--out", "OUT"], "--vtk", "--snapshots"),
+    (["--record", "--series", "--out", "OUT"], "--record", "--series"),
+    (["--overwrite"], "--overwrite", "--out"),
+    (["--resume", "--overwrite", "--out", "OUT"], "--resume", "--overwrite"),
+    (["--checkpoint-seconds", "5"], "--checkpoint-seconds", "--out"),
+    (["--own-constants"], "--own-constants", "scene compare"),
+    (["--out", ""], "--out", "''"),
+    (["--types", ""], "--types", "names no type"),
+    (["--threads", "0"], "--threads", "0"),
+]
+
+
+@pytest.mark.parametrize("words,option,value", BAD_VALUES)
+def test_a_bad_value_is_named_and_nothing_is_written(words, option, value, tmp_path):
+    out = tmp_path / "out"
+    given = [out if word == "OUT" else word for word in words]
+    code, printed, err = run("scene", "run", "collision", *given)
+    assert code == 2 and option in err and value in err, err
+    assert printed == "" and not out.exists()
+
+
+def test_an_override_may_stand_before_the_scene():
+    code, out, err = run(
+        *"scene run --set material.ball.density=2600 collision --steps 1 --json".split()
+    )
+    assert code == 0, err
+    assert json.loads(out)["variant"] == "material.ball.density=2600"
+
+
+def test_json_is_all_that_speed_prints(tmp_path):
+    words = "scene speed collision --types float,double --steps 50 --repeats 2 --json"
+    code, out, err = run(*words.split(), "--out", tmp_path)
+    assert code == 0, err
+    rows = [json.loads(line) for line in out.splitlines()]
+    assert [(r["type"], r["repeats"], r["threads"]) for r in rows] == [
+        ("float", 2, 1),
+        ("double", 2, 1),
+    ]
+    assert (tmp_path / "timing.jsonl").read_text() == out
+
+
+def test_explain_names_what_is_left_out():
+    code, out, err = run("scene", "explain", "collision")
+    assert code == 0, err
+    assert "left out" in out and "step with all parts" in out
+
+
+def test_own_constants_part_from_widened_ones():
+    words = "scene compare pendulum3 --types float --steps 100".split()
+    widened, own = run(*words), run(*words, "--own-constants")
+    assert widened[0] == own[0] == 0
+    assert widened[1] != own[1]
+
+
+@pytest.mark.parametrize("scene", ["collision", "pendulum3", "packing", "rolling"])
+def test_scene_records_do_not_depend_on_threads(scene, tmp_path):
+    words = f"scene run {scene} --types float,double --steps 200 --series".split()
+    for threads in (1, 2):
+        out = tmp_path / str(threads)
+        code, _, err = run(*words, "--threads", threads, "--out", out)
+        assert code == 0, err
+        assert json.loads((out / "context.json").read_text())["threads"] == threads
+    one, two = (tmp_path / t / "scenes.jsonl" for t in "12")
+    assert one.read_bytes() == two.read_bytes()
+
+
+def last_record(tmp_path, *words):
+    """The record in double, and the last row of its series."""
+    code, _, err = run("scene", "run", *words, "--series", "--out", tmp_path)
+    assert code == 0, err
+    (record,) = map(json.loads, (tmp_path / "scenes.jsonl").read_text().splitlines())
+    with open(tmp_path / f"series/{record['scene']}_double.csv") as file:
+        return record, list(csv.DictReader(file))[-1]
+
+
+def test_kinetic_energies_of_half_steps_and_on_the_step_have_names_of_their_own(
+    tmp_path,
+):
+    """A ball falls from rest: n g dt after n steps, half a step later than the mean of n - 1 and n."""
+    steps = 10
+    record, row = last_record(tmp_path, "bouncing", "--steps", steps)
+    half_step = record["kinetic_energy_half_step_J"]
+    on_step = record["energy"]["translational_on_step"]
+    assert record["energy"]["rotational_on_step"] == 0
+    assert on_step / half_step == pytest.approx(((steps - 0.5) / steps) ** 2, rel=1e-12)
+    assert float(row["kinetic_half_step_J"]) == half_step
+    assert float(row["translational_on_step"]) == on_step
+    for old in ("kinetic", "rotational", "kinetic_J"):
+        assert old not in row and old not in record["energy"]
+    assert "kinetic_energy" not in record
+    code, out, _ = run("scene", "run", "bouncing", "--steps", steps)
+    assert code == 0 and f"kinetic_half_step {half_step:.10g} J" in out
+
+
+def test_velocities_of_a_composition_method_are_on_the_step(tmp_path):
+    words = ["--integrator", "yoshida8", "--steps", 50]
+    record, row = last_record(tmp_path, "pendulum3", *words)
+    on_step = record["kinetic_energy_on_step_J"]
+    assert on_step > 0 and "kinetic_energy_half_step_J" not in record
+    assert record["energy"]["translational_on_step"] == pytest.approx(
+        on_step, rel=1e-14
+    )
+    assert float(row["kinetic_on_step_J"]) == on_step
