@@ -46,7 +46,7 @@ advice() { # LOG COMMAND
 
 # apt_install PACKAGE...
 apt_install() {
-  local command="apt-get install --no-install-recommends $*" log as_root=()
+  local command="apt-get update && apt-get install --no-install-recommends $*" log as_root=()
   step "install $# packages (a few minutes): $*"
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null || fail "not root, and there is no sudo; as root: $command"

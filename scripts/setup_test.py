@@ -139,11 +139,11 @@ def test_without_root_and_sudo_the_command_is_printed(machine):
     machine.apt()
     code, err = machine.setup(DEBIAN_13)
     assert code == 1
-    assert "there is no sudo; as root: apt-get install" in err
+    assert "there is no sudo; as root: apt-get update && apt-get install" in err
     machine.program("sudo", "exit 1\n")
     code, err = machine.setup(DEBIAN_13)
     assert code == 1
-    assert "there is no terminal; as root: apt-get install" in err
+    assert "there is no terminal; as root: apt-get update && apt-get install" in err
 
 
 def test_an_unknown_word_is_bad_usage(machine):
