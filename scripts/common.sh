@@ -22,12 +22,19 @@ find_python() {
   fail "no python3 with matplotlib, numpy, jinja2, jsonschema, mpmath and pytest; run scripts/setup"
 }
 
+# Says it where a failure in DIR is that of a full disk.
+if_full() { # DIR
+  local free
+  free="$(df -Pk "$1" | awk 'NR == 2 { print $4 }')"
+  [ "${free:-65537}" -gt 65536 ] || printf ' (%s has %s KiB left: make room, then run this again)' "$1" "$free"
+}
+
 # build PRESET [cmake option...]
 build() {
   local preset="$1"
   shift
   step "build ($preset)"
   cmake -S "$ROOT" --preset "$preset" "$@" >"$ROOT/build/$preset.configure.log" 2>&1 ||
-    { cat "$ROOT/build/$preset.configure.log" >&2; fail "cmake --preset $preset"; }
-  cmake --build "$ROOT/build/$preset" --parallel "$JOBS" || fail "the $preset build"
+    { cat "$ROOT/build/$preset.configure.log" >&2; fail "cmake --preset $preset$(if_full "$ROOT/build")"; }
+  cmake --build "$ROOT/build/$preset" --parallel "$JOBS" || fail "the $preset build$(if_full "$ROOT/build")"
 }
