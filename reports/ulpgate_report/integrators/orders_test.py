@@ -3,7 +3,7 @@ import math
 
 import pytest
 
-from ulpgate_report.integrators import orders, tables as order_tables
+from ulpgate_report.integrators import orders, tables
 from ulpgate_report.records import pendulum_records
 from ulpgate_report.testing import sample_pendulum
 
@@ -87,18 +87,18 @@ def test_tables_of_orders():
     pendulum = pendulum_records.Pendulum((run,))
     (
         (problem, name, token, order, measured, dt, error, units, floor),
-    ) = order_tables.order_table(pendulum).rows
+    ) = tables.order_table(pendulum).rows
     assert (problem, name, token, order) == ("kepler", "rule", "double", 4)
     assert (measured, dt, error, floor) == (4, 2.0**-8, 2e-9, "yes")
     assert units == pytest.approx(2e-9 / 2.0**-53, rel=1e-2)
-    assert len(order_tables.order_records(pendulum).rows) == 9
+    assert len(tables.order_records(pendulum).rows) == 9
 
 
 def test_table_of_energies():
     lines = sample_pendulum.drift_records()
     lines[0]["max_energy_error"] = "inf"
     run = pendulum_records.PendulumRun("", drifts=tuple(reversed(lines)))
-    found = order_tables.drift_table(pendulum_records.Pendulum((run,))).rows
+    found = tables.drift_table(pendulum_records.Pendulum((run,))).rows
     assert len(found) == len(lines)
     assert [row[2] for row in found] == sorted(row[2] for row in found), "by type"
     assert [row[5] for row in found if row[1] == lines[0]["integrator"]][0] == math.inf

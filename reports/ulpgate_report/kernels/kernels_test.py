@@ -8,10 +8,10 @@ import pytest
 from ulpgate_report.app import build, cli
 from ulpgate_report.figures import figure_style
 from ulpgate_report.kernels import (
-    combine as kernel_combine,
-    figure_condition as figure_kernel_condition,
-    kind as kind_kernels,
-    tables as kernel_tables,
+    combine,
+    figure_condition,
+    kind,
+    tables,
 )
 from ulpgate_report.records import reading, records
 from ulpgate_report.records.records_test import edit_line, with_fields, without
@@ -26,7 +26,7 @@ def combined_run(change=lambda record: None):
     for line in lines:
         change(line)
     run = records.Run(sample_kernels.context(), [], {}, tuple(lines))
-    return kernel_combine.combine_run(run)
+    return combine.combine_run(run)
 
 
 def is_at(record, *key):
@@ -46,7 +46,7 @@ def row_of(rows, **wanted):
 
 
 def test_ill_conditioned_is_not_unstable():
-    rows = csv_rows(kernel_tables.kernel_errors(combined_run()))
+    rows = csv_rows(tables.kernel_errors(combined_run()))
     row = row_of(rows, quantity="sphere_sphere overlap", type="double")
     assert float(row["max_ulp"]) > 5e15
     assert float(row["max_normwise_over_condition"]) < 2
@@ -61,7 +61,7 @@ def test_ill_conditioned_is_not_unstable():
 
 
 def test_stability_matrix_names_the_verdict():
-    table = kernel_tables.kernel_stability(combined_run())
+    table = tables.kernel_stability(combined_run())
     assert [row[0] for row in table.rows] == [
         "sphere_sphere overlap",
         "sphere_sphere normal",
@@ -76,13 +76,13 @@ def test_stability_matrix_names_the_verdict():
 
 
 def test_unstable_rows_can_be_reproduced():
-    (row,) = csv_rows(kernel_tables.kernel_unstable(combined_run()))
+    (row,) = csv_rows(tables.kernel_unstable(combined_run()))
     assert (row["type"], row["stratum"]) == ("float", "ratio")
     (line,) = [r for r in sample_kernels.records() if r["verdict"] == "unstable"]
     state = " ".join(line["normwise_argmax"])
     assert row["reproducer"] == f"ulpgate at body_energy float {state}"
     assert row["reproducer"] in table_text.render(
-        kernel_tables.kernel_unstable(combined_run())
+        tables.kernel_unstable(combined_run())
     )
 
 
@@ -93,12 +93,12 @@ def test_mismatches_can_be_reproduced():
             record["mismatch"] = {"nan": 2, "inf": 1}
             record["mismatch_first"] = {"nan": ["0x1p+0", "-0x1p-3"]}
 
-    table = kernel_tables.kernel_mismatches(combined_run(change))
+    table = tables.kernel_mismatches(combined_run(change))
     found = [(r["class"], r["count"], r["reproducer"]) for r in csv_rows(table)]
     command = "ulpgate at sphere_sphere mpfr62 0x1p+0 -0x1p-3"
     assert found == [("inf", "1", ""), ("nan", "2", command)]
     row = row_of(
-        csv_rows(kernel_tables.kernel_ulp(combined_run(change))),
+        csv_rows(tables.kernel_ulp(combined_run(change))),
         quantity="sphere_sphere normal",
     )
     assert row["mpfr62_mismatches"] == "3"
@@ -136,7 +136,7 @@ def hard_values(record):
 
 
 @pytest.mark.parametrize("change", [lambda record: None, hard_values])
-@pytest.mark.parametrize("draw", kind_kernels.FIGURES)
+@pytest.mark.parametrize("draw", kind.FIGURES)
 def test_figures_have_the_same_bytes_twice(draw, change):
     run = combined_run(change)
     name, caption, figure = draw(run)
@@ -146,11 +146,11 @@ def test_figures_have_the_same_bytes_twice(draw, change):
 
 
 def test_points_lie_below_the_diagonal_unless_unstable():
-    found = figure_kernel_condition.points(combined_run())
+    found = figure_condition.points(combined_run())
     for _, at_risk, lost, record in found:
         assert (lost - at_risk > 0.2) == (record["verdict"] == "unstable")
     run = combined_run(lambda record: record.update(max_normwise="inf"))
-    assert figure_kernel_condition.draw(run)[2] is None
+    assert figure_condition.draw(run)[2] is None
 
 
 @pytest.fixture
@@ -224,7 +224,7 @@ def test_whole_report(run_directory, tmp_path):
     files = sorted(p.relative_to(first) for p in first.rglob("*") if p.is_file())
     for name in files:
         assert (first / name).read_bytes() == (second / name).read_bytes(), name
-    for make, formats in kind_kernels.TABLES:
+    for make, formats in kind.TABLES:
         for form in formats:
             assert (first / f"{make.__name__}.{form}").stat().st_size > 0
     summary = json.loads((first / "summary.json").read_text("utf-8"))
@@ -237,14 +237,12 @@ def test_whole_report(run_directory, tmp_path):
 
 def test_every_table_has_the_name_of_its_function():
     run = combined_run()
-    for make, _ in kind_kernels.TABLES:
+    for make, _ in kind.TABLES:
         assert make(run).name == make.__name__
-    assert build.KINDS.index(kind_kernels) == 1
+    assert build.KINDS.index(kind) == 1
 
 
 @needs_latex
 def test_latex_compiles(tmp_path):
     run = combined_run(hard_values)
-    compile_tables(
-        [make(run) for make, f in kind_kernels.TABLES if "tex" in f], tmp_path
-    )
+    compile_tables([make(run) for make, f in kind.TABLES if "tex" in f], tmp_path)

@@ -1,43 +1,43 @@
 """The report of the DEM kernels: its tables, figures, sections of the page and what goes to the terminal."""
 from ulpgate_report.figures import heat_colours
 from ulpgate_report.kernels import (
-    combine as kernel_combine,
-    figure_condition as figure_kernel_condition,
-    figure_heatmap as figure_kernel_heatmap,
-    tables as kernel_tables,
+    combine,
+    figure_condition,
+    figure_heatmap,
+    tables,
 )
 from ulpgate_report.page import page_views
 from ulpgate_report.records import numbers
 
 # What is tabled, and in which formats; a table has the name of its function.
 TABLES = (
-    (kernel_tables.kernel_stability, ("tex", "md", "csv")),
-    (kernel_tables.kernel_ulp, ("tex", "md", "csv")),
-    (kernel_tables.kernel_errors, ("tex", "md", "csv")),
-    (kernel_tables.kernel_unstable, ("tex", "md", "csv")),
-    (kernel_tables.kernel_mismatches, ("tex", "md", "csv")),
-    (kernel_tables.kernel_records, ("md", "csv")),
+    (tables.kernel_stability, ("tex", "md", "csv")),
+    (tables.kernel_ulp, ("tex", "md", "csv")),
+    (tables.kernel_errors, ("tex", "md", "csv")),
+    (tables.kernel_unstable, ("tex", "md", "csv")),
+    (tables.kernel_mismatches, ("tex", "md", "csv")),
+    (tables.kernel_records, ("md", "csv")),
 )
 FIGURES = (
-    figure_kernel_heatmap.draw_types,
-    figure_kernel_heatmap.draw_strata,
-    figure_kernel_condition.draw,
+    figure_heatmap.draw_types,
+    figure_heatmap.draw_strata,
+    figure_condition.draw,
 )
 FAMILIES = ("kernel",)
 
 
 def of(run):
     """The combined kernels, None where no kernel was run."""
-    return kernel_combine.combine_run(run) if run.kernels else None
+    return combine.combine_run(run) if run.kernels else None
 
 
 def printed(combined):
     """Tables for the terminal."""
     found = [
-        kernel_tables.kernel_stability(combined),
-        kernel_tables.kernel_ulp(combined),
+        tables.kernel_stability(combined),
+        tables.kernel_ulp(combined),
     ]
-    for make in (kernel_tables.kernel_unstable, kernel_tables.kernel_mismatches):
+    for make in (tables.kernel_unstable, tables.kernel_mismatches):
         table = make(combined)
         if table.rows:
             found.append(table)
@@ -46,7 +46,7 @@ def printed(combined):
 
 def headline(combined):
     """What stands above everything."""
-    unstable = len(kernel_tables.kernel_unstable(combined).rows)
+    unstable = len(tables.kernel_unstable(combined).rows)
     mismatches = sum(cell.mismatches for cell in combined.cells.values())
     kernels = len({row.function for row in combined.rows})
     return [
@@ -83,7 +83,7 @@ def _heat_view(combined):
         for row in combined.rows
     ]
     return page_views.heat_view(
-        kernel_tables.kernel_stability(combined),
+        tables.kernel_stability(combined),
         cells,
         lambda cell: cell[2].max_normwise_over_condition,
         lambda cell: _hover(*cell),
@@ -100,7 +100,7 @@ def sections(combined, drawn):
     def figures(name, title):
         return page_views.figures(drawn, name, title, "There is nothing to draw.")
 
-    records = page_views.table_view(kernel_tables.kernel_records(combined))
+    records = page_views.table_view(tables.kernel_records(combined))
     return [
         page_views.section(
             "kernel-stability",
@@ -108,7 +108,7 @@ def sections(combined, drawn):
             page_views.table(_heat_view(combined)),
         ),
         page_views.section(
-            "kernel-unstable", "Unstable", table(kernel_tables.kernel_unstable)
+            "kernel-unstable", "Unstable", table(tables.kernel_unstable)
         ),
         page_views.section(
             "kernel-condition",
@@ -121,15 +121,15 @@ def sections(combined, drawn):
             *figures("kernel_strata", "Error beyond the condition by stratum"),
         ),
         page_views.section(
-            "kernel-ulp", "Componentwise error", table(kernel_tables.kernel_ulp)
+            "kernel-ulp", "Componentwise error", table(tables.kernel_ulp)
         ),
         page_views.section(
-            "kernel-errors", "Error and condition", table(kernel_tables.kernel_errors)
+            "kernel-errors", "Error and condition", table(tables.kernel_errors)
         ),
         page_views.section(
             "kernel-mismatches",
             "Kernels: mismatches",
-            table(kernel_tables.kernel_mismatches),
+            table(tables.kernel_mismatches),
         ),
         page_views.section(
             "kernel-all",

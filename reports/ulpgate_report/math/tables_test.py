@@ -4,7 +4,7 @@ import io
 
 import pytest
 
-from ulpgate_report.math import combine, kind as kind_math, tables
+from ulpgate_report.math import combine, kind, tables
 from ulpgate_report.records import records
 from ulpgate_report.tables import table_csv, table_latex, table_markdown, table_text
 from ulpgate_report.testing import sample_records
@@ -132,5 +132,5 @@ def test_names_are_escaped(text, latex, markdown, why):
 @needs_latex
 def test_latex_compiles_and_breaks_over_pages(tmp_path):
     run = combined_run(None, hard_values)
-    made = [make(run) for make, formats in kind_math.TABLES if "tex" in formats]
+    made = [make(run) for make, formats in kind.TABLES if "tex" in formats]
     assert "(1 page" not in compile_tables(made, tmp_path)

@@ -13,11 +13,11 @@ from ulpgate_report.integrators import figure_orders
 from ulpgate_report.pendulum import (
     figure_correlation,
     figure_damped_angle,
-    figure_energy as figure_pendulum_energy,
+    figure_energy,
     figure_energy_error,
-    figure_snapshots as figure_pendulum_snapshots,
+    figure_snapshots,
     figure_t_s,
-    kind as kind_pendulum,
+    kind,
 )
 from ulpgate_report.records import chain_series, pendulum_records, suite
 from ulpgate_report.testing import sample_pendulum
@@ -38,18 +38,18 @@ def only(**what):
     return pendulum_records.Pendulum((pendulum_records.PendulumRun("", **what),))
 
 
-@pytest.mark.parametrize("draw", kind_pendulum.FIGURES)
+@pytest.mark.parametrize("draw", kind.FIGURES)
 def test_same_bytes_twice_and_vectors(pendulum, draw):
     name, caption, figure = next(iter(draw(pendulum)))
     first = figure_style.render(figure, name)
     _, _, again = next(iter(draw(pendulum)))
     assert first == figure_style.render(again, name)
-    assert caption.endswith(".") and name.startswith(kind_pendulum.FAMILIES)
+    assert caption.endswith(".") and name.startswith(kind.FAMILIES)
     assert b"/Type3" not in first["pdf"] and b"/Subtype /Image" not in first["pdf"]
     assert b"<image" not in first["svg"] and b"<dc:date>" not in first["svg"]
 
 
-@pytest.mark.parametrize("draw", kind_pendulum.FIGURES)
+@pytest.mark.parametrize("draw", kind.FIGURES)
 def test_nothing_to_draw(draw):
     assert list(draw(only())) == []
 
@@ -79,7 +79,7 @@ def boxes(figure):
     ]
 
 
-@pytest.mark.parametrize("draw", kind_pendulum.FIGURES)
+@pytest.mark.parametrize("draw", kind.FIGURES)
 def test_no_text_lies_on_another(pendulum, draw):
     for name, _, figure in draw(pendulum):
         found = boxes(figure)
@@ -96,7 +96,7 @@ def test_no_text_lies_on_another(pendulum, draw):
 
 
 def test_names_tell_runs_and_conditions_apart(pendulum):
-    names = [name for draw in kind_pendulum.FIGURES for name, _, _ in draw(pendulum)]
+    names = [name for draw in kind.FIGURES for name, _, _ in draw(pendulum)]
     pyplot.close("all")
     assert len(set(names)) == len(names)
     assert "pendulum_correlation_pendulum3_dt_1e-5" in names
@@ -163,11 +163,11 @@ def test_the_least_that_can_be_drawn():
         orders=tuple(sample_pendulum.order_records(("double",), steps=1)),
     )
     names = []
-    for draw in kind_pendulum.FIGURES:
+    for draw in kind.FIGURES:
         for name, _, figure in draw(given):
             names.append(name)
             assert figure_style.render(figure, name)["png"]
-    assert len(names) == len(kind_pendulum.FIGURES)
+    assert len(names) == len(kind.FIGURES)
 
 
 def test_durations_take_the_longest_reference():
@@ -262,7 +262,7 @@ def test_angles_only_of_damped_runs(pendulum):
     ],
 )
 def test_types_of_the_energy_figure(tokens, expected, why):
-    assert figure_pendulum_energy.shown_types(tokens) == expected, why
+    assert figure_energy.shown_types(tokens) == expected, why
 
 
 def test_energy_errors_left_out_where_they_cannot_be_drawn():
@@ -288,7 +288,7 @@ def test_instants_of_float_and_double_are_one():
         ("float", snapshots([0.0, 0.10000000149, 2.4999998])),
         ("double", snapshots([0.0, 0.1, 2.5])),
     ]
-    found = figure_pendulum_snapshots._instants(lines)
+    found = figure_snapshots._instants(lines)
     assert list(found) == [0.0, 0.1, 2.5], "of the longer type"
     assert all(set(of_type) == {"float", "double"} for of_type in found.values())
 
@@ -299,9 +299,9 @@ def test_nodes_leave_out_what_is_no_node():
         "x_m": [9.0, 0.0, 1.0],
         "y_m": [9.0, 0.0, 2.0],
     }
-    x, y = figure_pendulum_snapshots.nodes(columns)
+    x, y = figure_snapshots.nodes(columns)
     assert x.tolist() == [0.0, 1.0] and y.tolist() == [0.0, 2.0]
-    assert figure_pendulum_snapshots.nodes({**columns, "x_m": [0, math.inf, 1]}) is None
+    assert figure_snapshots.nodes({**columns, "x_m": [0, math.inf, 1]}) is None
 
 
 def test_slopes_go_through_points_before_the_floor():

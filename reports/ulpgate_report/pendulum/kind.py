@@ -4,9 +4,9 @@ from ulpgate_report.page import page_views
 from ulpgate_report.pendulum import (
     figure_correlation,
     figure_damped_angle,
-    figure_energy as figure_pendulum_energy,
+    figure_energy,
     figure_energy_error,
-    figure_snapshots as figure_pendulum_snapshots,
+    figure_snapshots,
     figure_t_s,
     tables as pendulum_tables,
 )
@@ -21,11 +21,11 @@ TABLES = (
     (order_tables.order_records, ("md", "csv")),
 )
 FIGURES = (
-    figure_pendulum_snapshots.draw,
+    figure_snapshots.draw,
     figure_correlation.draw,
     figure_t_s.draw,
     figure_damped_angle.draw,
-    figure_pendulum_energy.draw,
+    figure_energy.draw,
     figure_energy_error.draw,
     figure_orders.draw,
 )

@@ -7,9 +7,9 @@ import numpy
 import pytest
 
 from ulpgate_report.pendulum import (
-    kind as kind_pendulum,
+    kind,
     published,
-    tables as pendulum_tables,
+    tables,
 )
 from ulpgate_report.records import chain_series, csv_columns, pendulum_records
 from ulpgate_report.tables import table_csv, table_text
@@ -40,7 +40,7 @@ def correlations(steps=("1e-6", "1e-5"), variant="mass=yade"):
 
 def test_divergence_table():
     given = correlations()
-    table = pendulum_tables.pendulum_divergence(pendulum(given))
+    table = tables.pendulum_divergence(pendulum(given))
     rows = csv_rows(table)
     assert [(r["type"], r["against"]) for r in rows] == [
         ("float", "mpfr150"),
@@ -65,7 +65,7 @@ def test_divergence_table():
     ],
 )
 def test_nothing_published_beside_another_run(steps, variant, why):
-    table = pendulum_tables.pendulum_divergence(pendulum(correlations(steps, variant)))
+    table = tables.pendulum_divergence(pendulum(correlations(steps, variant)))
     assert "published_t_s" not in [column.name for column in table.columns], why
     assert published.CITATION not in table.caption, why
     assert all(len(row) == len(table.columns) for row in table.rows)
@@ -73,7 +73,7 @@ def test_nothing_published_beside_another_run(steps, variant, why):
 
 def test_a_step_that_was_not_run_stays_empty():
     rows = [r for r in correlations() if (r["type"], r["dt"]) != ("double", "1e-6")]
-    table = pendulum_tables.pendulum_divergence(pendulum(rows))
+    table = tables.pendulum_divergence(pendulum(rows))
     (row,) = [row for row in csv_rows(table) if row["type"] == "double"]
     assert row["t_s_dt_1e-6"] == "" and row["t_s_dt_1e-5"] == "2.90 r"
     text = table_text.render(table)
@@ -81,7 +81,7 @@ def test_a_step_that_was_not_run_stays_empty():
 
 
 def test_every_duration_with_its_number():
-    rows = csv_rows(pendulum_tables.pendulum_correlations(pendulum(correlations())))
+    rows = csv_rows(tables.pendulum_correlations(pendulum(correlations())))
     assert len(rows) == 10
     assert [row["dt_s"] for row in rows[:2]] == ["1e-5", "1e-6"], "the larger first"
     bounds = [row for row in rows if row["lower_bound"] == "yes"]
@@ -100,7 +100,7 @@ def test_energy_table():
     old = sample_pendulum.record("float128", "1e-5")
     for name in ("max_energy_error_raw", "energy_slope", "energy_slope_raw"):
         del old[name]
-    rows = csv_rows(pendulum_tables.pendulum_energy(pendulum((), [*records, old])))
+    rows = csv_rows(tables.pendulum_energy(pendulum((), [*records, old])))
     assert [(r["type"], r["dt_s"]) for r in rows] == [
         ("float", "1e-5"),
         ("double", "1e-5"),
@@ -125,12 +125,10 @@ def test_latex_compiles_and_fits(tmp_path):
         orders=tuple(sample_pendulum.order_records(steps=6)),
         drifts=tuple(sample_pendulum.drift_records()),
     )
-    made = [make(run) for make, _ in kind_pendulum.TABLES]
-    for table, (make, _) in zip(made, kind_pendulum.TABLES):
+    made = [make(run) for make, _ in kind.TABLES]
+    for table, (make, _) in zip(made, kind.TABLES):
         assert table.name == make.__name__ and table.rows
-    shown = [
-        t for t, (_, formats) in zip(made, kind_pendulum.TABLES) if "tex" in formats
-    ]
+    shown = [t for t, (_, formats) in zip(made, kind.TABLES) if "tex" in formats]
     assert "Overfull" not in compile_tables(shown, tmp_path)
 
 

@@ -12,7 +12,7 @@ from ulpgate_report.scenes import (
     figure_divergence,
     figure_energy,
     figure_snapshots,
-    kind as kind_scenes,
+    kind,
 )
 from ulpgate_report.testing import sample_scenes
 
@@ -32,17 +32,17 @@ def only(**what):
     return scene_records.Scenes(**{**empty, "snapshots": {}, **what})
 
 
-@pytest.mark.parametrize("draw", kind_scenes.FIGURES)
+@pytest.mark.parametrize("draw", kind.FIGURES)
 def test_same_bytes_twice(scenes, draw):
     ((name, caption, figure),) = draw(scenes)
     first = figure_style.render(figure, name)
     ((_, _, again),) = draw(scenes)
     assert first == figure_style.render(again, name)
-    assert caption.endswith(".") and name.startswith(kind_scenes.FAMILIES)
+    assert caption.endswith(".") and name.startswith(kind.FAMILIES)
     assert b"CreationDate" not in first["pdf"] and b"<dc:date>" not in first["svg"]
 
 
-@pytest.mark.parametrize("draw", kind_scenes.FIGURES)
+@pytest.mark.parametrize("draw", kind.FIGURES)
 def test_nothing_to_draw(draw):
     assert list(draw(only())) == []
 

@@ -5,16 +5,16 @@ from ulpgate_report.scenes import (
     figure_divergence,
     figure_energy,
     figure_snapshots,
-    tables as scene_tables,
+    tables,
 )
 
 # What is tabled, and in which formats; a table has the name of its function.
 TABLES = (
-    (scene_tables.scene_table, ("tex", "md", "csv")),
-    (scene_tables.scene_states, ("tex", "md", "csv")),
-    (scene_tables.energy_table, ("tex", "md", "csv")),
-    (scene_tables.divergence_table, ("tex", "md", "csv")),
-    (scene_tables.benchmark_table, ("tex", "md", "csv")),
+    (tables.scene_table, ("tex", "md", "csv")),
+    (tables.scene_states, ("tex", "md", "csv")),
+    (tables.energy_table, ("tex", "md", "csv")),
+    (tables.divergence_table, ("tex", "md", "csv")),
+    (tables.benchmark_table, ("tex", "md", "csv")),
 )
 # What is drawn: each yields (name, caption, figure) for the scenes that have what it needs.
 FIGURES = (
@@ -26,11 +26,11 @@ FIGURES = (
 FAMILIES = ("snapshots", "divergence", "energy", "benchmark")
 # Section, title, family of figures, table, and what is said where there is neither.
 _PARTS = (
-    ("scenes", "Scenes", "snapshots", scene_tables.scene_table),
-    ("scene-divergence", "Divergence", "divergence", scene_tables.divergence_table),
-    ("scene-energy", "Energy", "energy", scene_tables.energy_table),
-    ("scene-benchmark", "Speed", "benchmark", scene_tables.benchmark_table),
-    ("scene-states", "States", None, scene_tables.scene_states),
+    ("scenes", "Scenes", "snapshots", tables.scene_table),
+    ("scene-divergence", "Divergence", "divergence", tables.divergence_table),
+    ("scene-energy", "Energy", "energy", tables.energy_table),
+    ("scene-benchmark", "Speed", "benchmark", tables.benchmark_table),
+    ("scene-states", "States", None, tables.scene_states),
 )
 _MISSING = {
     "snapshots": "No snapshots/SCENE_TYPE_STEP.csv with a sphere: the bodies are not drawn.",
@@ -47,13 +47,8 @@ def of(run):
 
 def printed(scenes):
     """Tables for the terminal."""
-    made = [
-        make(scenes) for make in (scene_tables.scene_table, scene_tables.scene_states)
-    ]
-    made += [
-        make(scenes)
-        for make in (scene_tables.divergence_table, scene_tables.benchmark_table)
-    ]
+    made = [make(scenes) for make in (tables.scene_table, tables.scene_states)]
+    made += [make(scenes) for make in (tables.divergence_table, tables.benchmark_table)]
     return [table for table in made if table.rows]
 
 

@@ -15,7 +15,7 @@ from ulpgate_report.records import (
     type_order,
 )
 from ulpgate_report.records.records_test import edit_line, with_fields, without
-from ulpgate_report.scenes import benchmark, kind as kind_scenes, tables as scene_tables
+from ulpgate_report.scenes import benchmark, kind as kind_scenes, tables
 from ulpgate_report.tables import table_csv
 from ulpgate_report.testing import sample_kernels, sample_scenes
 from ulpgate_report.testing.latex_check import compile_tables, needs_latex
@@ -182,16 +182,16 @@ def test_types_stand_in_one_order():
 
 def test_tables(run_directory):
     scenes = records.load(run_directory).scenes
-    row = csv_rows(scene_tables.scene_table(scenes))[1]
+    row = csv_rows(tables.scene_table(scenes))[1]
     assert (row["type"], row["dt_s"], row["contacts"]) == ("double", "1e-4", "9892")
     assert row["mean_y_m"] == "-0.345608"
-    state = csv_rows(scene_tables.scene_states(scenes))[0]
+    state = csv_rows(tables.scene_states(scenes))[0]
     assert state["left_out"] == "damping: it is 0" and len(state["state_hash"]) == 16
-    energy = csv_rows(scene_tables.energy_table(scenes))[0]
+    energy = csv_rows(tables.energy_table(scenes))[0]
     assert list(energy)[-3:] == ["sum_J", "energy_start_J", "max_energy_error_J"]
     (last,) = [
         row
-        for row in csv_rows(scene_tables.divergence_table(scenes))
+        for row in csv_rows(tables.divergence_table(scenes))
         if row["type"] == "float"
     ]
     assert last["other_contacts_step"] and last["max_position_error_m"] == "0.5"
@@ -223,10 +223,10 @@ def test_null_and_infinite_values(run_directory):
     )
     (run_directory / "scenes.jsonl").write_text(json.dumps(line) + "\n")
     scenes = records.load(run_directory).scenes
-    (row,) = csv_rows(scene_tables.scene_table(scenes))
+    (row,) = csv_rows(tables.scene_table(scenes))
     assert (row["kinetic_J"], row["max_energy_error_J"]) == ("nan", "inf")
     assert (row["mean_x_m"], row["mean_y_m"]) == ("-inf", "")
-    assert scene_tables.energy_table(scenes).rows == ()
+    assert tables.energy_table(scenes).rows == ()
     assert cli.main([str(run_directory), "--out", str(run_directory / "out")]) == 0
 
 
