@@ -7,12 +7,7 @@ import pytest
 
 from ulpgate_report.app import build, cli
 from ulpgate_report.figures import figure_style
-from ulpgate_report.kernels import (
-    combine,
-    figure_condition,
-    kind,
-    tables,
-)
+from ulpgate_report.kernels import combine, figure_condition, kind, tables
 from ulpgate_report.records import reading, records
 from ulpgate_report.records.records_test import edit_line, with_fields, without
 from ulpgate_report.tables import table_csv, table_latex, table_markdown, table_text

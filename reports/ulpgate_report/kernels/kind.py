@@ -1,11 +1,6 @@
 """The report of the DEM kernels: its tables, figures, sections of the page and what goes to the terminal."""
 from ulpgate_report.figures import heat_colours
-from ulpgate_report.kernels import (
-    combine,
-    figure_condition,
-    figure_heatmap,
-    tables,
-)
+from ulpgate_report.kernels import combine, figure_condition, figure_heatmap, tables
 from ulpgate_report.page import page_views
 from ulpgate_report.records import numbers
 

@@ -2,24 +2,11 @@
 from dataclasses import dataclass
 
 from ulpgate_report.records import numbers
+from ulpgate_report.records.row import Row
 
 # The two sets of arguments that the published table was made with.
 PAPER_STRATA = ("uniform", "stratified")
 BUCKETS_PER_OCTAVE = 4
-
-
-@dataclass(frozen=True)
-class Row:
-    """One line of a table: a function, or one part of a complex one."""
-
-    function: str
-    part: str
-    function_class: str
-
-    @property
-    def label(self):
-        """What people read: `sin`, `ctan re`."""
-        return self.function if self.part == "value" else f"{self.function} {self.part}"
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ import pytest
 from ulpgate_report.math import combine, kind, tables
 from ulpgate_report.records import records
 from ulpgate_report.tables import table_csv, table_latex, table_markdown, table_text
+from ulpgate_report.tables.table import Column, Table
 from ulpgate_report.testing import sample_records
 from ulpgate_report.testing.latex_check import compile_tables, needs_latex
 
@@ -124,7 +125,7 @@ def test_terminal_table_fits():
     ],
 )
 def test_names_are_escaped(text, latex, markdown, why):
-    table = tables.Table("t", "c", (tables.Column("f", "f", "code"),), ((text,),))
+    table = Table("t", "c", (Column("f", "f", "code"),), ((text,),))
     assert table_latex.escape(text) == latex, why
     assert f"| {markdown} |" in table_markdown.render(table), why
 

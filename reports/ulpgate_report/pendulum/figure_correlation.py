@@ -2,9 +2,8 @@
 import numpy
 from matplotlib import pyplot
 
-from ulpgate_report.figures import figure_style
+from ulpgate_report.figures import type_style
 from ulpgate_report.pendulum.drawing import name_of
-from ulpgate_report.records import type_order
 from ulpgate_report.records.pendulum_records import (
     HALF_STEP,
     OWN_REFERENCE,
@@ -69,7 +68,7 @@ def _draw(rows, tokens):
     )
     figure.subplots_adjust(hspace=0.25)
     for axes, (row, curve) in zip(strips[:, 0], rows):
-        colour, _ = type_order.line_style(row["type"], tokens)
+        colour, _ = type_style.line_style(row["type"], tokens)
         if row["against"] in _OF_REFERENCE:
             colour = "black"
         _draw_strip(axes, row, curve, colour, end)

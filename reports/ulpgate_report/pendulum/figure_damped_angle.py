@@ -2,9 +2,9 @@
 import numpy
 from matplotlib import pyplot
 
+from ulpgate_report.figures import type_style
 from ulpgate_report.pendulum import published, savitzky_golay
 from ulpgate_report.pendulum.drawing import each_condition, name_of
-from ulpgate_report.records import type_order
 
 FAMILY = "pendulum_angle"
 # Half the window in s, and the degree of its polynomial: the window is a chunk of the correlation.
@@ -92,7 +92,7 @@ def _draw(lines, tokens, behind):
         if parted is not None:
             start = max(0.0, min(parted - _RAW_S / 2, end - _RAW_S))
             window = (start, min(start + _RAW_S, end))
-        colour, _ = type_order.line_style(token, tokens)
+        colour, _ = type_style.line_style(token, tokens)
         _draw_row(left, right, line, reference, window, colour)
         left.set_xlim(0, end)
         left.set_ylabel(token, rotation=0, ha="right", va="center", size=7.5)

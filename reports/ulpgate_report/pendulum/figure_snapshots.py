@@ -2,9 +2,8 @@
 import numpy
 from matplotlib import pyplot
 
-from ulpgate_report.figures import figure_style
+from ulpgate_report.figures import type_style
 from ulpgate_report.pendulum.drawing import each_condition, name_of
-from ulpgate_report.records import type_order
 
 FAMILY = "pendulum_snapshots"
 _CAPTION = (
@@ -83,7 +82,7 @@ def _draw(lines, instants, tokens, limits, behind):
     )
     figure.subplots_adjust(wspace=0.06, hspace=0.06)
     for row, (token, _) in zip(grid, lines):
-        colour, _ = type_order.line_style(token, tokens)
+        colour, _ = type_style.line_style(token, tokens)
         for axes, of_type in zip(row, instants.values()):
             axes.set_aspect("equal")
             axes.set(xlim=(left, right), ylim=(low, high), xticks=[], yticks=[])

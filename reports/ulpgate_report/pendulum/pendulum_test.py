@@ -6,11 +6,7 @@ import math
 import numpy
 import pytest
 
-from ulpgate_report.pendulum import (
-    kind,
-    published,
-    tables,
-)
+from ulpgate_report.pendulum import kind, published, tables
 from ulpgate_report.records import chain_series, csv_columns, pendulum_records
 from ulpgate_report.tables import table_csv, table_text
 from ulpgate_report.testing import sample_pendulum

@@ -3,8 +3,7 @@ from dataclasses import dataclass
 
 import numpy
 
-from ulpgate_report.records import csv_columns, reading
-from ulpgate_report.scenes import figure_energy
+from ulpgate_report.records import csv_columns, energy_account, reading
 
 ANGLE = "angle_1_rad"
 AVERAGED, RAW = "energy_error_J", "raw_energy_error_J"
@@ -57,7 +56,7 @@ def largest_of_stretches(times, values, most=MOST_ERRORS):
 
 
 def _parts(columns):
-    account = figure_energy.parts(columns)
+    account = energy_account.parts(columns)
     # The account's own kinetic energy has velocities of the same instant as its positions.
     if "kinetic" in columns:
         account["kinetic"] = columns["kinetic"]

@@ -5,7 +5,7 @@ from matplotlib import pyplot
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ulpgate_report.figures import figure_style
+from ulpgate_report.figures import type_style
 from ulpgate_report.records import type_order
 from ulpgate_report.scenes import benchmark
 
@@ -33,7 +33,7 @@ def _draw_bars(axes, bars, tokens, threads, value_of, beside):
         value, deviation = value_of(bar)
         if value is None:
             continue
-        colour, _ = type_order.line_style(bar.timing["type"], tokens)
+        colour, _ = type_style.line_style(bar.timing["type"], tokens)
         which = threads.index(bar.timing["threads"])
         offset, width = _place(which, len(threads))
         x = tokens.index(bar.timing["type"]) + offset

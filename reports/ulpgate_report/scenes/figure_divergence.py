@@ -1,8 +1,8 @@
 """How fast RealHP<1> leaves RealHP<4>: error of the positions against step, a line for each type, a figure a scene."""
 from matplotlib import pyplot
 
-from ulpgate_report.figures import figure_style
-from ulpgate_report.records import csv_columns, type_order
+from ulpgate_report.figures import figure_style, type_style
+from ulpgate_report.records import csv_columns
 
 FAMILY = "divergence"
 _CAPTION = (
@@ -33,7 +33,7 @@ def _draw_panel(axes, lines, tokens, column):
         if not steps:
             continue
         drawn = True
-        colour, marker = type_order.line_style(token, tokens)
+        colour, marker = type_style.line_style(token, tokens)
         axes.plot(
             steps,
             errors,

@@ -1,11 +1,11 @@
 """The energy account of each scene: its parts against time, and how far their sum is from its start."""
-import decimal
 import math
 
 from matplotlib import pyplot
 
 from ulpgate_report.figures import figure_style
-from ulpgate_report.records import type_order
+from ulpgate_report.figures import type_style
+from ulpgate_report.records import energy_account
 
 FAMILY = "energy"
 _CAPTION = (
@@ -16,43 +16,9 @@ _CAPTION = (
 _KINETIC_ONLY = (
     "Scene %s: kinetic energy against time, a line for each type; no account was kept."
 )
-_NOT_ENERGY = ("step", "time_s", "mean_x_m", "mean_y_m", "mean_z_m", "angle_product")
-# Angles of a chain, and how far the sum is off: no parts of it.
-_NOT_ENERGY_ENDS = ("_rad", "energy_error_J")
 _DASHES = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
 _SHOWN_TYPE = "double"
 _MOST_POINTS = 4000
-# More digits than any type in use has; sums of the parts are exact.
-_DIGITS = 2000
-
-
-def parts(columns):
-    """{name: values} of the account in the order of the file, without its sum."""
-    found = {}
-    for name, values in columns.items():
-        short = name.removesuffix("_J")
-        other = name in _NOT_ENERGY or name.endswith(_NOT_ENERGY_ENDS)
-        if not other and short != "sum":
-            found.setdefault(short, values)
-    return found
-
-
-def balance(columns):
-    """(times, |sum - sum at the start|), or None where there is no account beside the kinetic energy."""
-    account = parts(columns)
-    total = columns.get("sum_J", columns.get("sum"))
-    # What is infinite or NaN gives NaN, which is not drawn.
-    with decimal.localcontext(decimal.Context(prec=_DIGITS, traps=[])):
-        if total is None:
-            if len(account) < 2:
-                return None
-            total = [sum(values) for values in zip(*account.values())]
-        # A step's energies are of its middle: before the first step there may be no account yet.
-        first = int(len(total) > 1 and not any(v[0] for v in account.values()))
-        if not total:
-            return None
-        errors = [float(abs(value - total[first])) for value in total[first:]]
-        return columns["time_s"][first:], errors
 
 
 def _thinned(times, values):
@@ -90,7 +56,11 @@ def _legend(axes, columns):
 
 
 def _draw_parts(axes, columns):
-    shown = {name: values for name, values in parts(columns).items() if any(values)}
+    shown = {
+        name: values
+        for name, values in energy_account.parts(columns).items()
+        if any(values)
+    }
     for index, (name, values) in enumerate(shown.items()):
         _plot(
             axes,
@@ -113,7 +83,7 @@ def _draw_parts(axes, columns):
 def _draw_types(axes, lines, tokens, label, log):
     drawn = 0
     for token, (times, values) in lines:
-        colour, marker = type_order.line_style(token, tokens)
+        colour, marker = type_style.line_style(token, tokens)
         style = {"color": colour, "marker": marker, "markersize": 3, "label": token}
         style["markevery"] = (tokens.index(token) * 0.02, 0.15)
         drawn += _plot(axes, times, values, 0.0 if log else -math.inf, **style)
@@ -132,7 +102,7 @@ def draw(scenes):
         series = [(t, c) for t, c in scenes.of(scenes.series, scene) if c["step"]]
         if not series:
             continue
-        kept = [(token, balance(columns)) for token, columns in series]
+        kept = [(token, energy_account.balance(columns)) for token, columns in series]
         kept = [(token, pair) for token, pair in kept if pair is not None]
         if kept:
             with_account = [token for token, _ in kept]

@@ -6,7 +6,7 @@ import numpy
 from matplotlib import pyplot
 from matplotlib.collections import EllipseCollection
 
-from ulpgate_report.figures import figure_style
+from ulpgate_report.figures import figure_style  # noqa: F401  (sets the look)
 
 FAMILY = "snapshots"
 _CAPTION = (

@@ -6,7 +6,7 @@ import numpy
 import pytest
 
 from ulpgate_report.figures import figure_style
-from ulpgate_report.records import csv_columns, records, scene_records
+from ulpgate_report.records import csv_columns, energy_account, records, scene_records
 from ulpgate_report.scenes import (
     figure_benchmark,
     figure_divergence,
@@ -48,7 +48,7 @@ def test_nothing_to_draw(draw):
 
 
 def test_a_balance_is_exact_far_below_a_double(scenes):
-    times, errors = figure_energy.balance(scenes.series["deposition", "mpfr150"])
+    times, errors = energy_account.balance(scenes.series["deposition", "mpfr150"])
     assert errors[0] == 0 and len(times) == len(errors)
     assert all(1e-151 < error < 1e-147 for error in errors[1:])
 
@@ -78,13 +78,13 @@ def columns(**values):
     ],
 )
 def test_balance(given, expected, why):
-    found = figure_energy.balance(columns(**given))
+    found = energy_account.balance(columns(**given))
     assert (found and found[1]) == expected, why
 
 
 def test_the_instant_before_the_first_step_has_no_account():
     series = columns(kinetic_J=(0, 1, 2), elastic=(0, 3, 2), sum=(0, 4, 4))
-    times, errors = figure_energy.balance(series)
+    times, errors = energy_account.balance(series)
     assert times == [0.1, 0.2] and errors == [0.0, 0.0]
 
 
@@ -93,12 +93,12 @@ def test_angles_and_errors_are_no_parts_of_the_energy():
         **{"kinetic_J": (1, 2, 3), "elastic": (3, 2, 1), "angle_1_rad": (1, 2, 3)},
         **{"angle_product": (1, 2, 3), "raw_energy_error_J": (1, 2, 3)},
     )
-    assert list(figure_energy.parts(series)) == ["kinetic", "elastic"]
+    assert list(energy_account.parts(series)) == ["kinetic", "elastic"]
 
 
 def test_balance_of_nan_is_left_out_of_the_drawing():
     series = columns(kinetic_J=(1, "NaN", "Infinity"), elastic_J=(1, 1, "-Infinity"))
-    found = figure_energy.balance(series)[1]
+    found = energy_account.balance(series)[1]
     assert found[0] == 0 and math.isnan(found[1]) and math.isnan(found[2])
     ((name, _, figure),) = figure_energy.draw(only(series={("s", "double"): series}))
     assert figure_style.render(figure, name)["png"]

@@ -7,6 +7,7 @@ import pytest
 
 from ulpgate_report.app import build, cli
 from ulpgate_report.app.report_test import References
+from ulpgate_report.figures import type_style
 from ulpgate_report.records import (
     reading,
     records,
@@ -176,7 +177,7 @@ def test_names_of_files(stem, known, expected, why):
 def test_types_stand_in_one_order():
     found = ["mpfr40", "cpp_bin_float62", "float", "double", "float"]
     assert type_order.ordered(found) == ["float", "double", "cpp_bin_float62", "mpfr40"]
-    styles = {type_order.line_style(t, found) for t in found}
+    styles = {type_style.line_style(t, found) for t in found}
     assert len(styles) == 4
 
 

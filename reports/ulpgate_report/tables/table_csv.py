@@ -2,8 +2,8 @@
 import csv
 import io
 
-from ulpgate_report.math.tables import Judged, Marked
 from ulpgate_report.records import numbers
+from ulpgate_report.tables.table import Judged, Marked
 
 
 def _mark_name(table):
