@@ -3,7 +3,8 @@ import json
 
 from ulpgate_report.integrators import orders
 from ulpgate_report.math import combine
-from ulpgate_report.records import numbers, reading
+from ulpgate_report.records import reading
+from ulpgate_report.values import numbers
 
 
 def _cell(combined, row, token):

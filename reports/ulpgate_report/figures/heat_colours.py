@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 import matplotlib
 
-from ulpgate_report.records import numbers
+from ulpgate_report.values import numbers
 
 COLOUR_MAP = "cividis"
 INFINITE_COLOUR = "#ffffff"

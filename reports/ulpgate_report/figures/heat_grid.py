@@ -8,7 +8,7 @@ from matplotlib import pyplot
 from matplotlib.patches import Polygon, Rectangle
 
 from ulpgate_report.figures import figure_style, heat_colours
-from ulpgate_report.records import numbers
+from ulpgate_report.values import numbers
 
 ROW_INCHES = 0.165
 COLUMN_INCHES = 0.56

@@ -1,6 +1,6 @@
 """The colour and the marker of a type where no context gives them."""
 from ulpgate_report.figures import figure_style
-from ulpgate_report.records import type_order
+from ulpgate_report.values import type_order
 
 
 def _place(token, tokens):

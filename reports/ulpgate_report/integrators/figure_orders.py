@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 
 from ulpgate_report.figures import figure_style
 from ulpgate_report.integrators import orders
-from ulpgate_report.records import type_order
+from ulpgate_report.values import type_order
 
 FAMILY = "orders"
 _CAPTION = (

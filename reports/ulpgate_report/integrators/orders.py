@@ -3,7 +3,7 @@ import math
 import statistics
 from dataclasses import dataclass
 
-from ulpgate_report.records import numbers, type_order
+from ulpgate_report.values import numbers, type_order
 
 # Where the last step lowers the error by less than this share of the order, the floor is reached.
 _FALLING = 0.5

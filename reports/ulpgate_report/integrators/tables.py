@@ -1,7 +1,7 @@
 """The tables of the integrators' orders as plain data."""
 from ulpgate_report.integrators import orders
-from ulpgate_report.records import numbers
 from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.values import numbers
 
 _PROBLEM = Column("problem", "problem", "code")
 _INTEGRATOR = Column("integrator", "integrator", "code")

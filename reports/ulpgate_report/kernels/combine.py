@@ -1,8 +1,8 @@
 """Combines the strata of each (kernel, quantity, type), and what one stratum shows over all types."""
 from dataclasses import dataclass
 
-from ulpgate_report.records import numbers
-from ulpgate_report.records.row import Row
+from ulpgate_report.values import numbers
+from ulpgate_report.values.row import Row
 
 UNSTABLE = "unstable"
 # More roundings than a backward stable evaluation of a few dozen operations accumulates: the limit of the verdict.

@@ -4,7 +4,7 @@ from matplotlib.lines import Line2D
 
 from ulpgate_report.figures import figure_style
 from ulpgate_report.kernels.combine import UNSTABLE
-from ulpgate_report.records import numbers
+from ulpgate_report.values import numbers
 
 NAME = "kernel_condition"
 CAPTION = (

@@ -2,7 +2,7 @@
 from ulpgate_report.figures import heat_colours
 from ulpgate_report.kernels import combine, figure_condition, figure_heatmap, tables
 from ulpgate_report.page import page_views
-from ulpgate_report.records import numbers
+from ulpgate_report.values import numbers
 
 # What is tabled, and in which formats; a table has the name of its function.
 TABLES = (

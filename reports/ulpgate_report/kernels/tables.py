@@ -1,7 +1,7 @@
 """The tables of a run of kernels as plain data."""
 from ulpgate_report.kernels.combine import STABILITY_LIMIT, UNSTABLE, row_of_record
-from ulpgate_report.records import numbers
 from ulpgate_report.tables.table import Column, Judged, Marked, Table
+from ulpgate_report.values import numbers
 
 _QUANTITY = Column("quantity", "kernel, quantity", "code")
 _TYPE = Column("type", "type", "code")

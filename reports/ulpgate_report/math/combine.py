@@ -1,8 +1,8 @@
 """Combines the strata of each (function, part, type): maxima by max, counts and histograms by sum, means by weight."""
 from dataclasses import dataclass
 
-from ulpgate_report.records import numbers
-from ulpgate_report.records.row import Row
+from ulpgate_report.values import numbers
+from ulpgate_report.values.row import Row
 
 # The two sets of arguments that the published table was made with.
 PAPER_STRATA = ("uniform", "stratified")

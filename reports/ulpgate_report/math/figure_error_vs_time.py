@@ -6,7 +6,7 @@ from matplotlib import pyplot
 from matplotlib.lines import Line2D
 
 from ulpgate_report.figures import cut_scale, figure_style
-from ulpgate_report.records import numbers
+from ulpgate_report.values import numbers
 
 NAME = "error_vs_time"
 CAPTION = (

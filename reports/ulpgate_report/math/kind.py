@@ -8,7 +8,7 @@ from ulpgate_report.math import (
     tables,
 )
 from ulpgate_report.page import page_views
-from ulpgate_report.records import numbers
+from ulpgate_report.values import numbers
 
 # What is tabled, and in which formats; a table has the name of its function.
 TABLES = (

@@ -1,8 +1,8 @@
 """What is tabled of the math functions: columns and rows, without any format."""
 from ulpgate_report.math.combine import PAPER_STRATA
-from ulpgate_report.records import numbers
-from ulpgate_report.records.row import Row
 from ulpgate_report.tables.table import Column, Marked, Table
+from ulpgate_report.values import numbers
+from ulpgate_report.values.row import Row
 
 
 def _matrix(combined, name, caption, kind, cells, value_of):

@@ -4,8 +4,8 @@ import re
 
 from markupsafe import Markup
 
-from ulpgate_report.records import numbers
 from ulpgate_report.tables import cell_text
+from ulpgate_report.values import numbers
 
 ARGUMENT_DIGITS = 13
 

@@ -4,7 +4,7 @@ import re
 from matplotlib.lines import Line2D
 
 from ulpgate_report.figures import figure_style
-from ulpgate_report.records import time_step
+from ulpgate_report.values import time_step
 
 
 def slug(text):

@@ -12,7 +12,7 @@ from ulpgate_report.pendulum.drawing import (
     step_style,
 )
 from ulpgate_report.pendulum.figure_t_s import by_scene_and_variant
-from ulpgate_report.records import numbers, time_step, type_order
+from ulpgate_report.values import numbers, time_step, type_order
 
 FAMILY = "pendulum_max_error"
 _CAPTION = (

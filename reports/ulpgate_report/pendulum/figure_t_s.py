@@ -10,8 +10,8 @@ from ulpgate_report.pendulum.drawing import (
     step_handles,
     step_style,
 )
-from ulpgate_report.records import time_step, type_order
 from ulpgate_report.records.pendulum_records import HALF_STEP, OWN_REFERENCE
+from ulpgate_report.values import time_step, type_order
 
 FAMILY = "pendulum_t_s"
 _CAPTION = (

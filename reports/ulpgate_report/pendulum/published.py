@@ -1,5 +1,5 @@
 """Published numbers that a table or figure shows beside ours, and where they stand."""
-from ulpgate_report.records import time_step
+from ulpgate_report.values import time_step
 
 # J. Kozicki, A. Gladky, K. Thoeni, Implementation of high-precision computation capabilities into the open-source
 # dynamic simulation framework YADE, Comput. Phys. Commun. 270 (2022) 108167: how long the triple elastic pendulum

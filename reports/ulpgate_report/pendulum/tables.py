@@ -1,8 +1,8 @@
 """The tables of the pendulum as plain data: how long each type stays true, and how well it keeps the energy."""
 from ulpgate_report.pendulum import published
-from ulpgate_report.records import numbers, time_step, type_order
 from ulpgate_report.records.pendulum_records import HALF_STEP, OWN_REFERENCE
 from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.values import numbers, time_step, type_order
 
 _SCENE = Column("scene", "scene", "code")
 _VARIANT = Column("variant", "variant", "text")

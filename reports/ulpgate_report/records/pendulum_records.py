@@ -9,9 +9,9 @@ from ulpgate_report.records import (
     reading,
     scene_files,
     scene_records,
-    type_order,
 )
 from ulpgate_report.records.errors import InvalidInput
+from ulpgate_report.values import type_order
 
 # The published figure has nine instants; more would be too small to read.
 MOST_SNAPSHOTS = 9

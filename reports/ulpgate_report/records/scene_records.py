@@ -2,14 +2,9 @@
 import decimal
 from dataclasses import dataclass
 
-from ulpgate_report.records import (
-    chain_series,
-    csv_columns,
-    reading,
-    scene_files,
-    type_order,
-)
+from ulpgate_report.records import chain_series, csv_columns, reading, scene_files
 from ulpgate_report.records.errors import InvalidInput
+from ulpgate_report.values import type_order
 
 # More panels than these would be too small to read.
 MOST_SNAPSHOTS = 4

@@ -2,7 +2,7 @@
 import math
 from dataclasses import dataclass
 
-from ulpgate_report.records import type_order
+from ulpgate_report.values import type_order
 
 # Kozicki, Gladky, Thoeni, CPC 2022: gravity deposition, relative to double, 16 threads.
 PAPER_SLOWDOWN = {

@@ -6,8 +6,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ulpgate_report.figures import type_style
-from ulpgate_report.records import type_order
 from ulpgate_report.scenes import benchmark
+from ulpgate_report.values import type_order
 
 FAMILY = "benchmark"
 _CAPTION = (

@@ -8,18 +8,13 @@ import pytest
 from ulpgate_report.app import build, cli
 from ulpgate_report.app.report_test import References
 from ulpgate_report.figures import type_style
-from ulpgate_report.records import (
-    reading,
-    records,
-    scene_files,
-    scene_records,
-    type_order,
-)
+from ulpgate_report.records import reading, records, scene_files, scene_records
 from ulpgate_report.records.records_test import edit_line, with_fields, without
 from ulpgate_report.scenes import benchmark, kind as kind_scenes, tables
 from ulpgate_report.tables import table_csv
 from ulpgate_report.testing import sample_kernels, sample_scenes
 from ulpgate_report.testing.latex_check import compile_tables, needs_latex
+from ulpgate_report.values import type_order
 
 TOKENS = ("float", "double", "long_double", "mpfr62")
 

@@ -1,9 +1,9 @@
 """The tables of a run of scenes as plain data."""
 import math
 
-from ulpgate_report.records import numbers
 from ulpgate_report.scenes import benchmark
 from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.values import numbers
 
 _SCENE = Column("scene", "scene", "code")
 _TYPE = Column("type", "type", "code")

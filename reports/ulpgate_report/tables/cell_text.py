@@ -1,6 +1,6 @@
 """The short text of one table cell, shared by the formats that people read."""
-from ulpgate_report.records import numbers
 from ulpgate_report.tables.table import Judged, Marked
+from ulpgate_report.values import numbers
 
 _SHORT = {
     "ulp": numbers.short_ulp,

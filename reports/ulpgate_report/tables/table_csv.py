@@ -2,8 +2,8 @@
 import csv
 import io
 
-from ulpgate_report.records import numbers
 from ulpgate_report.tables.table import Judged, Marked
+from ulpgate_report.values import numbers
 
 
 def _mark_name(table):

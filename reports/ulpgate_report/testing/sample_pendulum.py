@@ -4,9 +4,9 @@ import math
 import sys
 from pathlib import Path
 
-from ulpgate_report.records.time_step import seconds
 from ulpgate_report.testing.sample_records import PLAN, TYPES, share
 from ulpgate_report.testing.sample_scenes import context, csv_text, scene_record
+from ulpgate_report.values.time_step import seconds
 
 SCENE = "pendulum3"
 BITS = {row[0]: row[-1] for row in TYPES}

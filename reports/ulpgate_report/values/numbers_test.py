@@ -1,7 +1,7 @@
 """Tests of the numbers' short texts: tables of input, expected and why."""
 import pytest
 
-from ulpgate_report.records import numbers
+from ulpgate_report.values import numbers
 
 INF = numbers.INFINITE
 

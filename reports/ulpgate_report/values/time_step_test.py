@@ -2,7 +2,7 @@
 import pytest
 
 from ulpgate_report.pendulum import published
-from ulpgate_report.records import time_step
+from ulpgate_report.values import time_step
 
 
 @pytest.mark.parametrize(
