@@ -1,17 +1,14 @@
 """Tests of the whole report: the files, the page that stands alone, the summary, nothing stale."""
-import html.parser
 import json
 import shutil
-import subprocess
-from pathlib import Path
 
 import pytest
 
 from ulpgate_report.app import cli
 from ulpgate_report.records import reading
 from ulpgate_report.testing import sample_records
+from ulpgate_report.testing.page_check import References
 
-TEMPLATES = Path(__file__).resolve().parents[1] / "page" / "templates"
 SCRIPT_NAME = '<script>alert("x")</script>'
 FIGURES = ["error_vs_time", "heatmap", "distributions_real", "distributions_complex"]
 
@@ -28,25 +25,6 @@ def report(tmp_path_factory):
     run = sample_records.write(base / "run", context, math, timing)
     assert cli.main([str(run), "--out", str(base / "out")]) == 0
     return run, base / "out"
-
-
-class References(html.parser.HTMLParser):
-    """Collects what a browser would fetch, the ids, and what stands in the text."""
-
-    def __init__(self):
-        super().__init__()
-        self.fetched, self.scripts, self.tables, self.ids = [], 0, [], []
-
-    def handle_starttag(self, tag, attributes):
-        for name, value in attributes:
-            if name in ("src", "href", "xlink:href", "data", "action", "poster"):
-                self.fetched.append((tag, value))
-            if name == "id":
-                self.ids.append(value)
-                if tag == "table":
-                    self.tables.append(value)
-        self.scripts += tag == "script"
-        assert tag not in ("link", "iframe", "object", "embed", "base")
 
 
 def test_page_stands_alone(report):
@@ -125,17 +103,3 @@ def test_second_report_is_the_same_and_nothing_stale_stays(report, tmp_path):
     assert cli.main([str(untimed), "--out", str(tmp_path)]) == 0
     assert not list((tmp_path / "figures").glob("error_vs_time*"))
     assert "Nothing was timed." in (tmp_path / "index.html").read_text("utf-8")
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
-@pytest.mark.parametrize("name", ["tables.js", "distribution.js"])
-def test_scripts_parse(name):
-    subprocess.run(["node", "--check", str(TEMPLATES / name)], check=True)
-
-
-@pytest.mark.parametrize(
-    "name",
-    ["context", "math", "timing", "summary", "scenes", "correlation", "orders"],
-)
-def test_schemas_are_schemas(name):
-    assert reading.validator(name).schema["title"]

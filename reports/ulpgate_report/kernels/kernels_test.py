@@ -1,6 +1,4 @@
 """Tests of the kernels' report: combining, verdicts and readings, reproducers, figures, bad input, the page."""
-import csv
-import io
 import json
 
 import pytest
@@ -9,10 +7,10 @@ from ulpgate_report.app import build, cli
 from ulpgate_report.figures import figure_style
 from ulpgate_report.kernels import combine, figure_condition, kind, tables
 from ulpgate_report.records import reading, records
-from ulpgate_report.records.records_test import edit_line, with_fields, without
-from ulpgate_report.tables import table_csv, table_latex, table_markdown, table_text
+from ulpgate_report.tables import table_latex, table_markdown, table_text
 from ulpgate_report.testing import sample_kernels
-from ulpgate_report.testing.latex_check import compile_tables, needs_latex
+from ulpgate_report.testing.changes import edit_line, with_fields, without
+from ulpgate_report.testing.table_check import compile_tables, csv_rows, needs_latex
 
 
 def combined_run(change=lambda record: None):
@@ -27,11 +25,6 @@ def combined_run(change=lambda record: None):
 def is_at(record, *key):
     """Whether a record is of this quantity, type and stratum."""
     return (record["part"], record["type"], record["stratum"]) == key
-
-
-def csv_rows(table):
-    """A rendered CSV, read again."""
-    return list(csv.DictReader(io.StringIO(table_csv.render(table))))
 
 
 def row_of(rows, **wanted):

@@ -1,18 +1,18 @@
-"""Tests of the figures: same bytes twice, the scale with cuts, infinite and exact points."""
+"""Tests of the figures: same bytes twice, infinite and exact points."""
 import math
 
 import pytest
 
-from ulpgate_report.figures import cut_scale, figure_style, heat_colours
+from ulpgate_report.figures import figure_style
 from ulpgate_report.math import (
     combine,
     figure_distributions,
     figure_error_vs_time,
     figure_heatmap,
 )
-from ulpgate_report.math.tables_test import hard_values
 from ulpgate_report.records import records
 from ulpgate_report.testing import sample_records
+from ulpgate_report.testing.hard_records import hard_values
 
 
 def combined_run(names, change=lambda record: None, timed=True):
@@ -96,26 +96,6 @@ def test_half_an_ulp_lies_on_the_floor():
         assert point.log10_error == pytest.approx(floor, abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    "values, cuts, why",
-    [
-        ([0.0], 0, "one value, one stretch"),
-        ([0.0, 4.0], 0, "a short gap is not cut"),
-        ([0.0, 100.0], 1, "a long one is"),
-        ([-150.0, -62.0, -16.0, -7.0], 3, "float, double, 62 and 150 digits"),
-    ],
-)
-def test_cut_scale(values, cuts, why):
-    scale = cut_scale.make(values)
-    assert len(scale.cuts) == cuts, why
-    drawn = [scale.position(value) for value in values]
-    assert drawn == sorted(drawn), why
-    assert scale.length <= 12 * len(values), why
-    ticks = scale.ticks(2)
-    for low, high, _ in scale.stretches:
-        assert any(low <= tick <= high for tick in ticks), "every stretch has a tick"
-
-
 def test_shares_keep_every_sample():
     buckets = ((-400, 1), (-24, 2), (-22, 3), (0, 4), (4000, 10))
     run = combined_run(["sin"])
@@ -126,16 +106,3 @@ def test_shares_keep_every_sample():
     assert found[0] == (-6.0, 0.15), "what is below the range joins its first bucket"
     assert found[1] == (-5.75, 0), "an empty bucket stands between"
     assert found[-1] == (40.0, 0.5)
-
-
-@pytest.mark.parametrize(
-    "value, expected, why",
-    [
-        (0, 0.0, "exact is the lowest colour"),
-        (0.5, 0.0, "so is correct rounding"),
-        (1e6, 1.0, "the highest"),
-        (10**400, 1.0, "above is cut"),
-    ],
-)
-def test_heat_position(value, expected, why):
-    assert heat_colours.ULP.position(value) == pytest.approx(expected), why

@@ -1,15 +1,10 @@
-"""Tests of the tables in every format: numbers, marks, escapes, order; and that LaTeX takes them."""
-import csv
-import io
-
-import pytest
-
+"""Tests of the functions' tables: numbers, marks, order; and that LaTeX takes them."""
 from ulpgate_report.math import combine, kind, tables
 from ulpgate_report.records import records
-from ulpgate_report.tables import table_csv, table_latex, table_markdown, table_text
-from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.tables import table_latex, table_text
 from ulpgate_report.testing import sample_records
-from ulpgate_report.testing.latex_check import compile_tables, needs_latex
+from ulpgate_report.testing.hard_records import hard_values, is_at
+from ulpgate_report.testing.table_check import compile_tables, csv_rows, needs_latex
 
 
 def combined_run(names, change=lambda record: None):
@@ -19,30 +14,6 @@ def combined_run(names, change=lambda record: None):
     for record in math:
         change(record)
     return combine.combine_run(records.Run(context, math, {}))
-
-
-def is_at(record, type_token, stratum):
-    """Whether a record is of this type and stratum."""
-    return record["type"] == type_token and record["stratum"] == stratum
-
-
-def hard_values(record):
-    """Infinite, unjudged and huge values in three columns."""
-    if is_at(record, "float", "hard"):
-        record["max_ulp"] = record["max_float_distance"] = "inf"
-    if record["type"] == "double":
-        for name in ("max_ulp", "max_float_distance", "mean_ulp", "p50_ulp", "p99_ulp"):
-            record[name] = None
-        record.update(judged=0, argmax=[], argmax_index=None)
-        record["histogram"] = {"exact": 0, "buckets": []}
-        record["mismatch"]["nan"] = 1000
-    if is_at(record, "mpfr150", "uniform"):
-        record["max_float_distance"] = 10**400
-
-
-def csv_rows(table):
-    """A rendered CSV, read again."""
-    return list(csv.DictReader(io.StringIO(table_csv.render(table))))
 
 
 def test_rows_stand_in_display_order():
@@ -111,23 +82,6 @@ def test_terminal_table_fits():
     text = table_text.render(tables.ulp_matrix(combined_run(None)))
     assert max(map(len, text.split("\n"))) <= 110
     assert "!3" in text
-
-
-@pytest.mark.parametrize(
-    "text, latex, markdown, why",
-    [
-        ("a_b", r"a\_b", "`a_b`", "underscore"),
-        ("a|b", r"a\textbar{}b", r"`a\|b`", "bar ends a Markdown cell"),
-        ("*", "*", "`*`", "star"),
-        ("5%&#", r"5\%\&\#", "`5%&#`", "LaTeX's own"),
-        ("\\x", r"\textbackslash{}x", "`\\x`", "backslash"),
-        ("--", "{-}{-}", "`--`", "no dash is made of two minus signs"),
-    ],
-)
-def test_names_are_escaped(text, latex, markdown, why):
-    table = Table("t", "c", (Column("f", "f", "code"),), ((text,),))
-    assert table_latex.escape(text) == latex, why
-    assert f"| {markdown} |" in table_markdown.render(table), why
 
 
 @needs_latex

@@ -9,7 +9,6 @@ import pytest
 from matplotlib import pyplot
 
 from ulpgate_report.figures import figure_style
-from ulpgate_report.integrators import figure_orders
 from ulpgate_report.pendulum import (
     figure_correlation,
     figure_damped_angle,
@@ -197,56 +196,6 @@ def test_t_s_marks_bounds_limits_and_published_values(pendulum):
     pyplot.close(figure)
 
 
-def chain(times, angle, **changes):
-    """A series with an angle alone."""
-    made = chain_series.ChainSeries(numpy.array(times), numpy.array(angle), (), {}, {})
-    return (
-        made if not changes else chain_series.ChainSeries(**{**vars(made), **changes})
-    )
-
-
-@pytest.mark.parametrize("interval", [1e-4, 1e-3])
-def test_smoothing_has_one_window_in_seconds(interval):
-    times = numpy.arange(0, 1, interval)
-    wave = numpy.sin(3 * times)
-    ripple = 0.1 * numpy.sin(2 * numpy.pi * times / (4 * interval))
-    found = figure_damped_angle.smoothed(chain(times, wave + ripple))
-    inside = (times > 0.05) & (times < 0.95)
-    assert numpy.abs(found[2] - wave)[inside].max() < 0.012
-    assert (found[1] == wave + ripple).all(), "the raw angle stays beside it"
-
-
-def test_a_run_that_broke_down_is_smoothed_up_to_there():
-    angle = numpy.ones(1000)
-    angle[600] = math.nan
-    found = figure_damped_angle.smoothed(chain(numpy.arange(1000) * 1e-3, angle))
-    assert len(found[0]) == 600 and numpy.isfinite(found[2]).all()
-
-
-def test_parting_time():
-    times = numpy.arange(0, 2, 1e-3)
-    one, other = numpy.zeros(2000), numpy.zeros(2000)
-    other[1500:] = 1.0
-    lines = [(times, a, a) for a in (one, other)]
-    assert figure_damped_angle.parting_time(*lines) == pytest.approx(1.5)
-    assert figure_damped_angle.parting_time(lines[0], lines[0]) is None
-
-
-@pytest.mark.parametrize(
-    "variant, expected",
-    [
-        ("mass=yade,damping=5e-3", True),
-        ("damping=0", False),
-        ("damping=0.0,dt=1e-6", False),
-        ("damping=1/200", True),
-        ("mass=yade", False),
-        ("", False),
-    ],
-)
-def test_damped_variants(variant, expected):
-    assert figure_damped_angle.is_damped(variant) is expected
-
-
 def test_angles_only_of_damped_runs(pendulum):
     names = [name for name, _, _ in figure_damped_angle.draw(pendulum)]
     pyplot.close("all")
@@ -302,33 +251,3 @@ def test_nodes_leave_out_what_is_no_node():
     x, y = figure_snapshots.nodes(columns)
     assert x.tolist() == [0.0, 1.0] and y.tolist() == [0.0, 2.0]
     assert figure_snapshots.nodes({**columns, "x_m": [0, math.inf, 1]}) is None
-
-
-def test_slopes_go_through_points_before_the_floor():
-    given = only(orders=tuple(sample_pendulum.order_records(("double",))))
-    found = figure_orders.orders.convergences(given.orders)
-    for one in found:
-        x, y = figure_orders.anchor(one)
-        measured = min(one.clear, key=lambda point: abs(math.log10(point[0]) - x))
-        assert y == pytest.approx(math.log10(measured[1]))
-        assert measured[1] > 10 * (one.floor or 0)
-
-
-def test_order_figure_shows_the_floor_and_every_integrator(pendulum):
-    ((name, caption, figure),) = figure_orders.draw(pendulum)
-    assert name == "orders_kepler" and "mpfr62" in caption
-    titles = [axes.get_title() for axes in figure.axes]
-    assert titles == ["double", "float128", "mpfr62"]
-    for axes, token in zip(figure.axes, titles):
-        unit = -sample_pendulum.BITS[token] * math.log10(2)
-        levels = [
-            line.get_ydata()[0]
-            for line in axes.lines
-            if len(line.get_ydata()) == 2 and line.get_ydata()[0] == line.get_ydata()[1]
-        ]
-        assert levels == [pytest.approx(unit)]
-    (legend,) = figure.legends
-    labels = [text.get_text() for text in legend.texts]
-    assert len(labels) == len(sample_pendulum.INTEGRATORS)
-    assert "yoshida8 (8): 8.00" in labels
-    pyplot.close(figure)

@@ -1,42 +1,16 @@
-"""Tests of loading and of the exit codes: each kind of bad input is refused, by file and line."""
-import json
-import subprocess
-import sys
-from pathlib import Path
-
+"""Tests of loading: each kind of bad input is refused, by file and line."""
 import pytest
 
-from ulpgate_report.app import cli, interpreter
-from ulpgate_report.records import errors, records
+from ulpgate_report.app import cli
+from ulpgate_report.records import records
 from ulpgate_report.testing import sample_records
-
-REPORT = Path(__file__).resolve().parents[2] / "report.py"
+from ulpgate_report.testing.changes import edit_line, with_fields, without
 
 
 @pytest.fixture
 def run_directory(tmp_path):
     """A small good run."""
     return sample_records.write_sample(tmp_path / "run", ["sin", "ctan"])
-
-
-def edit_line(directory, name, number, change):
-    """Pass line `number`, from 1, of a file through `change`."""
-    path = directory / name
-    lines = path.read_text("utf-8").split("\n")
-    lines[number - 1] = change(lines[number - 1])
-    path.write_text("\n".join(lines), "utf-8")
-
-
-def with_fields(**fields):
-    """A change that sets fields of a JSON line; None as a value stands for null."""
-    return lambda line: json.dumps({**json.loads(line), **fields})
-
-
-def without(name):
-    """A change that takes a field out of a JSON line."""
-    return lambda line: json.dumps(
-        {k: v for k, v in json.loads(line).items() if k != name}
-    )
 
 
 def test_good_run_loads(run_directory):
@@ -168,38 +142,3 @@ def test_incomplete_run_is_said_to_be(run_directory, capsys):
     edit_line(run_directory, "context.json", 1, with_fields(complete=False))
     assert cli.main([str(run_directory), "--print"]) == 0
     assert "incomplete" in capsys.readouterr().err
-
-
-def test_unwritable_output(run_directory, tmp_path):
-    (tmp_path / "file").write_text("")
-    assert cli.main([str(run_directory), "--out", str(tmp_path / "file" / "out")]) == 4
-
-
-def _start(*arguments, **how):
-    command = [sys.executable, str(REPORT), *map(str, arguments)]
-    return subprocess.run(command, stderr=subprocess.PIPE, text=True, **how)
-
-
-def test_program_exit_codes(run_directory, tmp_path):
-    assert _start(run_directory).returncode == 2, "neither --out nor --print"
-    missing = _start(tmp_path / "none", "--print")
-    assert missing.returncode == 2 and "none" in missing.stderr
-    with open("/dev/full", "w", encoding="utf-8") as full:
-        done = _start(run_directory, "--print", stdout=full)
-    assert done.returncode == 4, done.stderr
-    assert done.stderr.startswith("report: cannot print")
-
-
-def test_missing_package_is_named():
-    found = interpreter.missing_packages(["json", "no_such_package"])
-    assert found == ["no_such_package"]
-    assert "python3-jinja2" in interpreter.missing_message(["jinja2"])
-
-
-def test_missing_package_exits_4(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(interpreter, "missing_packages", lambda: ["jsonschema"])
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(SystemExit) as stop:
-        interpreter.ensure_packages()
-    assert stop.value.code == errors.OutputFailure.exit_code
-    assert "python3-jsonschema" in capsys.readouterr().err

@@ -1,21 +1,13 @@
-"""Tests of suites and of loading the pendulum: what is one, what is refused, what is left out and said."""
+"""Tests of suites and of loading the pendulum: what is one, what is refused, where nothing was measured."""
 import json
-import shutil
 
 import pytest
 
 from ulpgate_report.app import cli
-from ulpgate_report.app.report_test import References
-from ulpgate_report.records import (
-    chain_series,
-    pendulum_records,
-    reading,
-    records,
-    suite,
-)
+from ulpgate_report.records import pendulum_records, records, suite
 from ulpgate_report.records.errors import NothingMeasured
-from ulpgate_report.records.records_test import edit_line, with_fields, without
 from ulpgate_report.testing import sample_pendulum, sample_records, sample_scenes
+from ulpgate_report.testing.changes import edit_line, with_fields, without
 
 TOKENS = ("float", "double", "mpfr150")
 SMALL = {"tokens": TOKENS, "end": 3.0, "every": 5e-3}
@@ -140,35 +132,6 @@ def test_bad_input_is_refused(suite_directory, capsys, name, line, change, named
     assert named in capsys.readouterr().err, why
 
 
-def test_what_is_left_out_is_said(suite_directory, tmp_path, capsys):
-    for dt in ("1e-5", "1e-6"):
-        shutil.rmtree(suite_directory / f"dt_{dt}")
-    (suite_directory / "orders" / "orders.jsonl").unlink()
-    (suite_directory / "empty").mkdir()
-    context = (suite_directory / "orders" / "context.json").read_text()
-    (suite_directory / "empty" / "context.json").write_text(context)
-    (suite_directory / "lost").mkdir()
-    (suite_directory / "lost" / "scenes.jsonl").write_text("{}\n")
-    math = sample_records.context(["sin"])
-    sample_records.write(
-        suite_directory / "sines", math, sample_records.math_records(math), []
-    )
-    (suite_directory / "report").mkdir()
-    (suite_directory / "damped" / "series" / "angles.csv").write_text("t\n")
-    out = tmp_path / "out"
-    assert cli.main([str(suite_directory), "--out", str(out)]) == 0
-    said = capsys.readouterr().err
-    page = (out / "index.html").read_text("utf-8")
-    for sentence in (
-        "empty: no record; left out.",
-        "orders: no record; left out.",
-        "lost: records without context.json; left out.",
-        "sines: functions and kernels are reported apart",
-    ):
-        assert sentence in said and sentence in page
-    assert "damped/series/angles.csv: the name tells no scene" in said
-
-
 def test_runs_that_differ_are_told_apart(suite_directory):
     path = suite_directory / "damped" / "context.json"
     changed = json.loads(path.read_text())
@@ -201,70 +164,6 @@ def test_nothing_measured(tmp_path, capsys, make):
         suite.load(tmp_path)
     assert cli.main([str(tmp_path), "--print"]) == 3
     assert str(tmp_path) in capsys.readouterr().err
-
-
-def test_whole_report(suite_directory, tmp_path):
-    # A second step would draw the same once more.
-    shutil.rmtree(suite_directory / "dt_1e-6")
-    out, again = tmp_path / "out", tmp_path / "again"
-    assert cli.main([str(suite_directory), "--out", str(out)]) == 0
-    page = (out / "index.html").read_text("utf-8")
-    found = References()
-    found.feed(page)
-    assert len(set(found.ids)) == len(found.ids)
-    assert {value[1:] for _, value in found.fetched} <= set(found.ids)
-    shown = {"pendulum_divergence", "pendulum_energy", "order_table", "drift_table"}
-    assert shown <= set(found.tables)
-    summary = json.loads((out / "summary.json").read_text("utf-8"))
-    reading.validator("summary").validate(summary)
-    assert len(summary["correlations"]) == 4 and len(summary["scenes"]) == 6
-    assert summary["plan"]["orders"] == sample_records.PLAN
-    assert cli.main([str(suite_directory), "--out", str(again)]) == 0
-    for path in out.rglob("*"):
-        if path.is_file():
-            same = (again / path.relative_to(out)).read_bytes()
-            assert path.read_bytes() == same, path.name
-    # A report of the integrators alone leaves nothing of the pendulum behind.
-    assert cli.main([str(suite_directory / "orders"), "--out", str(out)]) == 0
-    names = {path.name.split(".")[0] for path in out.rglob("*") if path.is_file()}
-    assert names == {
-        "index",
-        "summary",
-        "tables",
-        "orders_kepler",
-        "order_table",
-        "order_records",
-        "drift_table",
-        "pendulum_divergence",
-        "pendulum_correlations",
-        "pendulum_energy",
-    }
-
-
-def test_todays_columns_keep_the_ordinary_energy_figure(suite_directory, capsys):
-    run = suite_directory / "dt_1e-5"
-    for path in (run / "series").iterdir():
-        lines = path.read_text().splitlines()
-        short = [line.rsplit(",", 5)[0] for line in lines]
-        path.write_text("\n".join(short) + "\n")
-    out = suite_directory / "out"
-    assert cli.main([str(run), "--out", str(out)]) == 0
-    assert (out / "figures" / "energy_pendulum3.svg").exists()
-    said = capsys.readouterr().err
-    assert "No series with parts of the energy and energy_error_J" in said
-    assert "no energy is drawn" not in said and "no speed" not in said
-
-
-def test_a_chain_is_told_by_its_columns(tmp_path):
-    for header, expected in (
-        ("step,time_s,kinetic_J,angle_1_rad", True),
-        ("step,time_s,kinetic_J,energy_error_J", True),
-        ("step,time_s,kinetic_J,elastic", False),
-        ("", False),
-    ):
-        path = tmp_path / "s.csv"
-        path.write_text(header + "\n")
-        assert chain_series.is_chain(path) is expected, header
 
 
 def test_conditions_come_from_the_record_of_the_type():

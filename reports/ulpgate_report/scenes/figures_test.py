@@ -1,5 +1,4 @@
-"""Tests of the scenes' figures: same bytes twice, exact balances, depth, odd values."""
-import decimal
+"""Tests of the scenes' figures: same bytes twice, depth, odd values."""
 import math
 
 import numpy
@@ -15,6 +14,7 @@ from ulpgate_report.scenes import (
     kind,
 )
 from ulpgate_report.testing import sample_scenes
+from ulpgate_report.testing.sample_scenes import short_columns
 
 TOKENS = ("double", "mpfr150", "cpp_bin_float62")
 
@@ -47,57 +47,10 @@ def test_nothing_to_draw(draw):
     assert list(draw(only())) == []
 
 
-def test_a_balance_is_exact_far_below_a_double(scenes):
-    times, errors = energy_account.balance(scenes.series["deposition", "mpfr150"])
-    assert errors[0] == 0 and len(times) == len(errors)
-    assert all(1e-151 < error < 1e-147 for error in errors[1:])
-
-
-def columns(**values):
-    """A series of three instants."""
-    found = {"step": [0, 1, 2], "time_s": [0.0, 0.1, 0.2]}
-    for name, numbers in values.items():
-        found[name] = [decimal.Decimal(str(number)) for number in numbers]
-    return found
-
-
-@pytest.mark.parametrize(
-    "given, expected, why",
-    [
-        ({"kinetic_J": (1, 2, 3)}, None, "no account"),
-        (
-            {"kinetic_J": (1, 2, 3), "elastic_J": (3, 2, 2)},
-            [0.0, 0.0, 1.0],
-            "the parts are added",
-        ),
-        (
-            {"kinetic_J": (1, 2, 3), "elastic": (3, 2, 2), "sum": (4, 4, 6)},
-            [0.0, 0.0, 2.0],
-            "a sum in the file is taken",
-        ),
-    ],
-)
-def test_balance(given, expected, why):
-    found = energy_account.balance(columns(**given))
-    assert (found and found[1]) == expected, why
-
-
-def test_the_instant_before_the_first_step_has_no_account():
-    series = columns(kinetic_J=(0, 1, 2), elastic=(0, 3, 2), sum=(0, 4, 4))
-    times, errors = energy_account.balance(series)
-    assert times == [0.1, 0.2] and errors == [0.0, 0.0]
-
-
-def test_angles_and_errors_are_no_parts_of_the_energy():
-    series = columns(
-        **{"kinetic_J": (1, 2, 3), "elastic": (3, 2, 1), "angle_1_rad": (1, 2, 3)},
-        **{"angle_product": (1, 2, 3), "raw_energy_error_J": (1, 2, 3)},
-    )
-    assert list(energy_account.parts(series)) == ["kinetic", "elastic"]
-
-
 def test_balance_of_nan_is_left_out_of_the_drawing():
-    series = columns(kinetic_J=(1, "NaN", "Infinity"), elastic_J=(1, 1, "-Infinity"))
+    series = short_columns(
+        kinetic_J=(1, "NaN", "Infinity"), elastic_J=(1, 1, "-Infinity")
+    )
     found = energy_account.balance(series)[1]
     assert found[0] == 0 and math.isnan(found[1]) and math.isnan(found[2])
     ((name, _, figure),) = figure_energy.draw(only(series={("s", "double"): series}))
@@ -105,7 +58,7 @@ def test_balance_of_nan_is_left_out_of_the_drawing():
 
 
 def test_kinetic_energy_alone_is_drawn():
-    series = {("s", "float"): columns(kinetic_J=(1, 2, 3), mean_x_m=(0, 0, 0))}
+    series = {("s", "float"): short_columns(kinetic_J=(1, 2, 3), mean_x_m=(0, 0, 0))}
     ((_, caption, figure),) = figure_energy.draw(only(series=series))
     assert "no account was kept" in caption
     figure_style.render(figure, "energy_s")

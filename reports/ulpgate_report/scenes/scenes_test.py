@@ -1,20 +1,14 @@
 """Tests of loading scenes and of their tables: what is optional, what is refused, by file and line."""
-import csv
-import io
 import json
 
 import pytest
 
-from ulpgate_report.app import build, cli
-from ulpgate_report.app.report_test import References
-from ulpgate_report.figures import type_style
-from ulpgate_report.records import reading, records, scene_files, scene_records
-from ulpgate_report.records.records_test import edit_line, with_fields, without
-from ulpgate_report.scenes import benchmark, kind as kind_scenes, tables
-from ulpgate_report.tables import table_csv
-from ulpgate_report.testing import sample_kernels, sample_scenes
-from ulpgate_report.testing.latex_check import compile_tables, needs_latex
-from ulpgate_report.values import type_order
+from ulpgate_report.app import cli
+from ulpgate_report.records import records, scene_records
+from ulpgate_report.scenes import benchmark, kind, tables
+from ulpgate_report.testing import sample_scenes
+from ulpgate_report.testing.changes import edit_line, with_fields, without
+from ulpgate_report.testing.table_check import compile_tables, csv_rows, needs_latex
 
 TOKENS = ("float", "double", "long_double", "mpfr62")
 
@@ -23,11 +17,6 @@ TOKENS = ("float", "double", "long_double", "mpfr62")
 def run_directory(tmp_path):
     """A small good run."""
     return sample_scenes.write_sample(tmp_path / "run", TOKENS, bodies=30)
-
-
-def csv_rows(table):
-    """A rendered CSV, read again."""
-    return list(csv.DictReader(io.StringIO(table_csv.render(table))))
 
 
 def test_good_run_loads(run_directory):
@@ -154,28 +143,6 @@ def test_a_cut_file_is_refused(run_directory, capsys, name):
     assert f"{name}:1" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    "stem, known, expected, why",
-    [
-        ("deposition_double", [], ("deposition", "double"), "plain"),
-        ("a_long_double", [], ("a", "long_double"), "the longest type"),
-        ("a_long_double", [("a_long", "double")], ("a_long", "double"), "records tell"),
-        ("p_3_cpp_bin_float62", [], ("p_3", "cpp_bin_float62"), "underscores in both"),
-        ("p_mpfr40", [], ("p", "mpfr40"), "any number of digits"),
-        ("angles", [], None, "no type"),
-    ],
-)
-def test_names_of_files(stem, known, expected, why):
-    assert scene_files.split_name(stem, known) == expected, why
-
-
-def test_types_stand_in_one_order():
-    found = ["mpfr40", "cpp_bin_float62", "float", "double", "float"]
-    assert type_order.ordered(found) == ["float", "double", "cpp_bin_float62", "mpfr40"]
-    styles = {type_style.line_style(t, found) for t in found}
-    assert len(styles) == 4
-
-
 def test_tables(run_directory):
     scenes = records.load(run_directory).scenes
     row = csv_rows(tables.scene_table(scenes))[1]
@@ -229,10 +196,9 @@ def test_null_and_infinite_values(run_directory):
 @needs_latex
 def test_latex_compiles(run_directory, tmp_path):
     scenes = records.load(run_directory).scenes
-    made = [make(scenes) for make, _ in kind_scenes.TABLES]
+    made = [make(scenes) for make, _ in kind.TABLES]
     assert all(
-        table.name == make.__name__
-        for table, (make, _) in zip(made, kind_scenes.TABLES)
+        table.name == make.__name__ for table, (make, _) in zip(made, kind.TABLES)
     )
     compile_tables(made, tmp_path)
 
@@ -261,25 +227,3 @@ def test_one_of_the_files_is_enough(run_directory, tmp_path, kept):
         if path.name not in (kept, "context.json"):
             path.rename(tmp_path / path.name)
     assert cli.main([str(run_directory), "--out", str(tmp_path / "out")]) == 0
-
-
-def test_scenes_and_kernels_share_a_page(run_directory, tmp_path):
-    context = {**sample_kernels.context(), "plan": sample_scenes.PLAN}
-    sample_kernels.write(run_directory, sample_kernels.records(), context)
-    assert cli.main([str(run_directory), "--out", str(tmp_path)]) == 0
-    page = (tmp_path / "index.html").read_text("utf-8")
-    assert 'id="kernel_stability"' in page and 'id="scene_table"' in page
-    found = References()
-    found.feed(page)
-    assert len(set(found.ids)) == len(found.ids), "of six figures on one page"
-    links = [value for _, value in found.fetched if not value.startswith("data:image/")]
-    assert {link[1:] for link in links} <= set(found.ids)
-    summary = json.loads((tmp_path / "summary.json").read_text("utf-8"))
-    reading.validator("summary").validate(summary)
-    assert len(summary["scenes"]) == len(TOKENS) and summary["kernels"]
-    (run_directory / "kernels.jsonl").unlink()
-    assert cli.main([str(run_directory), "--out", str(tmp_path)]) == 0
-    assert not list(tmp_path.rglob("kernel*")), "nothing of the older report stays"
-    assert [kind for kind, _ in build.parts_of(records.load(run_directory))] == [
-        kind_scenes
-    ]

@@ -139,6 +139,14 @@ def snapshot(step, bodies=200):
     return csv_text("body,shape,x_m,y_m,z_m,radius_m,kinetic_J,time_s", rows)
 
 
+def short_columns(**values):
+    """The columns of a series of three instants."""
+    found = {"step": [0, 1, 2], "time_s": [0.0, 0.1, 0.2]}
+    for name, numbers in values.items():
+        found[name] = [decimal.Decimal(str(number)) for number in numbers]
+    return found
+
+
 def write_sample(directory, tokens=tuple(BITS), bodies=200):
     """A whole run: records, times on 1 and 4 threads, series, divergences, five snapshots of one type."""
     directory = Path(directory)

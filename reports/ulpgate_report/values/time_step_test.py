@@ -1,7 +1,6 @@
-"""Tests of the time step's text: arithmetic of numbers alone, order, labels; and of what is published of which run."""
+"""Tests of the time step's text: arithmetic of numbers alone, order, labels."""
 import pytest
 
-from ulpgate_report.pendulum import published
 from ulpgate_report.values import time_step
 
 
@@ -33,18 +32,3 @@ def test_order_and_labels():
     assert time_step.label("1e-5") == "$10^{-5}$ s"
     assert time_step.label("(1e-5)/2") == r"$5 \times 10^{-6}$ s"
     assert time_step.label("a$b") == r"a\$b s"
-
-
-@pytest.mark.parametrize(
-    "scene, dt, variant, expected, why",
-    [
-        ("pendulum3", "1e-5", "mass=yade", 2.5, "the published run"),
-        ("pendulum3", "(2e-5)/2", "mass=yade,dt=(2e-5)/2", 2.5, "the same step"),
-        ("pendulum3", "1e-5", "", None, "another mass"),
-        ("pendulum3", "1e-6", "mass=yade", None, "another step"),
-        ("pendulum3", "1e-5", "mass=yade,damping=5e-3", None, "damped"),
-        ("pendulum2", "1e-5", "mass=yade", None, "another scene"),
-    ],
-)
-def test_published(scene, dt, variant, expected, why):
-    assert published.pendulum_t_s(scene, dt, variant, "double") == expected, why

@@ -1,27 +1,17 @@
-"""Tests of the pendulum's tables and of what its figures show: properties, not bytes."""
-import csv
-import io
-import math
-
-import numpy
+"""Tests of the pendulum's tables: properties, not bytes; and that LaTeX takes them."""
 import pytest
 
 from ulpgate_report.pendulum import kind, published, tables
-from ulpgate_report.records import chain_series, csv_columns, pendulum_records
-from ulpgate_report.tables import table_csv, table_text
+from ulpgate_report.records import pendulum_records
+from ulpgate_report.tables import table_text
 from ulpgate_report.testing import sample_pendulum
-from ulpgate_report.testing.latex_check import compile_tables, needs_latex
+from ulpgate_report.testing.table_check import compile_tables, csv_rows, needs_latex
 
 
 def pendulum(correlations=(), records=(), **what):
     """A pendulum of one run."""
     run = pendulum_records.PendulumRun("", tuple(records), tuple(correlations), **what)
     return pendulum_records.Pendulum((run,))
-
-
-def csv_rows(table):
-    """A rendered CSV, read again."""
-    return list(csv.DictReader(io.StringIO(table_csv.render(table))))
 
 
 def correlations(steps=("1e-6", "1e-5"), variant="mass=yade"):
@@ -126,56 +116,3 @@ def test_latex_compiles_and_fits(tmp_path):
         assert table.name == make.__name__ and table.rows
     shown = [t for t, (_, formats) in zip(made, kind.TABLES) if "tex" in formats]
     assert "Overfull" not in compile_tables(shown, tmp_path)
-
-
-def test_a_series_is_read_by_names(tmp_path):
-    path = tmp_path / "pendulum3_double.csv"
-    path.write_text(sample_pendulum.series("double", end=4.0, every=1e-3))
-    found = chain_series.read(path)
-    assert list(found.parts) == ["kinetic", "elastic", "potential"], "0 is left out"
-    steps = numpy.diff(found.angle_times)
-    assert steps == pytest.approx(1e-3), "without the first step, which is off the grid"
-    assert len(found.part_times) == 2000 and found.part_times[0] == 1e-5
-    assert found.part_times[-1] == 4.0
-    turned = tmp_path / "turned.csv"
-    lines = [line.split(",")[::-1] for line in path.read_text().splitlines()]
-    turned.write_text("\n".join(map(",".join, lines)) + "\n")
-    again = chain_series.read(turned)
-    assert (again.angle == found.angle).all(), "the place of a column is nothing"
-    for name, (times, values) in found.errors.items():
-        assert (again.errors[name][1] == values).all()
-
-
-def test_the_largest_error_survives_the_thinning(tmp_path):
-    path = tmp_path / "pendulum3_double.csv"
-    path.write_text(sample_pendulum.series("float", end=8.0, every=1e-3))
-    columns = csv_columns.read(path, ())
-    found = chain_series.read(path)
-    for name in (chain_series.AVERAGED, chain_series.RAW):
-        times, values = found.errors[name]
-        assert len(times) <= chain_series.MOST_ERRORS
-        assert max(values) == max(map(abs, columns[name]))
-        assert (numpy.diff(times) > 0).all()
-
-
-def test_stretches_pass_over_what_is_not_finite():
-    times = numpy.arange(6.0)
-    values = numpy.array([1, -math.inf, math.nan, -5, 2, 0])
-    found = chain_series.largest_of_stretches(times, values, 2)
-    assert found[0].tolist() == [3.0, 4.0] and found[1].tolist() == [5.0, 2.0]
-
-
-@pytest.mark.parametrize(
-    "columns, has_angle, errors, why",
-    [
-        ("angle_1_rad", True, 0, "angles alone"),
-        ("energy_error_J", False, 1, "an error alone"),
-        ("raw_energy_error_J", False, 1, "the raw one alone"),
-    ],
-)
-def test_columns_are_optional(tmp_path, columns, has_angle, errors, why):
-    path = tmp_path / "s.csv"
-    path.write_text(f"step,time_s,{columns}\n0,0,0\n10,1e-4,1\n20,2e-4,2\n")
-    found = chain_series.read(path)
-    assert (found.angle is not None) is has_angle and len(found.errors) == errors, why
-    assert found.parts == {}

@@ -1,14 +1,21 @@
-"""Compiles tables with pdflatex, for the tests."""
+"""Reads tables back from CSV and compiles them with pdflatex, for the tests."""
+import csv
+import io
 import shutil
 import subprocess
 
 import pytest
 
-from ulpgate_report.tables import table_latex
+from ulpgate_report.tables import table_csv, table_latex
 
 needs_latex = pytest.mark.skipif(
     shutil.which("pdflatex") is None, reason="pdflatex is not installed"
 )
+
+
+def csv_rows(table):
+    """A rendered CSV, read again."""
+    return list(csv.DictReader(io.StringIO(table_csv.render(table))))
 
 
 def compile_tables(tables, folder):
