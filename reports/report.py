@@ -7,10 +7,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 # A report must leave nothing behind in the source tree that it was started from.
 sys.dont_write_bytecode = True
 
-from ulpgate_report import interpreter  # noqa: E402  (the path has to be set first)
+from ulpgate_report.app import interpreter  # noqa: E402  (the path has to be set first)
 
 if __name__ == "__main__":
     interpreter.ensure_packages()
-    from ulpgate_report import cli
+    from ulpgate_report.app import cli
 
     sys.exit(cli.main(sys.argv[1:]))

@@ -2,16 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
 
-#include "harness/app/shell/failure.hpp"
+#include "harness/app/shell/action.hpp"
 
 namespace ulpgate::app {
 
 class Ranks;
-
-// What the chosen verb does; set by the subcommand's callback.
-using Action = std::function<ExitCode()>;
 
 void add_list_command(CLI::App& app, Action& action);
 // The ranks of an MPI job, asked for when the verb runs; nullptr where the process is alone.

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "harness/app/commands/commands.hpp"
+#include "harness/app/shell/action.hpp"
 
 namespace ulpgate::app {
 

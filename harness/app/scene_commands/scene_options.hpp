@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/app/commands/commands.hpp"
 #include "harness/app/scenes/scene_run.hpp"
+#include "harness/app/shell/action.hpp"
 
 namespace ulpgate::app {
 

@@ -1,0 +1,12 @@
+// Action: what the chosen verb does; set by the subcommand's callback.
+#pragma once
+
+#include <functional>
+
+#include "harness/app/shell/failure.hpp"
+
+namespace ulpgate::app {
+
+using Action = std::function<ExitCode()>;
+
+}  // namespace ulpgate::app

@@ -1,0 +1,1 @@
+"""The program: command line, exit codes, and all files of a report."""

@@ -1,0 +1,68 @@
+"""The command line of the reports: arguments, messages and exit codes."""
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from ulpgate_report.app import build
+from ulpgate_report.records import suite
+from ulpgate_report.records.errors import OutputFailure, ReportError
+from ulpgate_report.tables import table_text
+
+EXIT_OK = 0
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="report",
+        description="Tables, figures and a page from the records that `ulpgate` wrote to DIR: of math functions, of DEM kernels "
+        "of scenes, of the pendulum and of integrators, whichever are there; DIR may also be a directory of such directories.",
+        epilog="exit codes: 0 ok, 2 bad usage or invalid input, 3 nothing measured, 4 I/O failure",
+    )
+    parser.add_argument("directory", metavar="DIR", type=Path, help="the records")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--out", metavar="OUT", type=Path, help="write the report there")
+    what.add_argument(
+        "--print",
+        dest="to_terminal",
+        action="store_true",
+        help="print the main tables",
+    )
+    return parser
+
+
+def _print_tables(parts):
+    shown = [table for kind, data in parts for table in kind.printed(data)]
+    try:
+        sys.stdout.write("\n".join(map(table_text.render, shown)))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader, `head` say, has seen enough. Python would flush once more at exit and complain.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        # What stays in the buffer would fail a second time when the interpreter ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise OutputFailure(f"cannot print: {error.strerror}") from error
+
+
+def main(argv):
+    """Run one report; returns the exit code."""
+    arguments = _parser().parse_args(argv)
+    try:
+        run = suite.load(arguments.directory)
+        parts = build.parts_of(run)
+        if not run.context.get("complete", True):
+            print(
+                "report: the run is incomplete; missing samples are not judged",
+                file=sys.stderr,
+            )
+        if arguments.to_terminal:
+            _print_tables(parts)
+        else:
+            said = build.write_report(run.context, parts, arguments.out, run.notes)
+            for sentence in said:
+                print(f"report: {sentence}", file=sys.stderr)
+    except ReportError as error:
+        print(f"report: {error}", file=sys.stderr)
+        return error.exit_code
+    return EXIT_OK

@@ -1,0 +1,1 @@
+"""What figures of several subjects share: the look, heat maps, scales."""

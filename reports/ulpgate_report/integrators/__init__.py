@@ -1,0 +1,1 @@
+"""Orders and energies of integrators, a part of the pendulum's report."""

@@ -1,0 +1,146 @@
+"""The report of the math functions: its tables, figures, sections of the page and what goes to the terminal."""
+from ulpgate_report.figures import figure_style, heat_colours
+from ulpgate_report.math import (
+    combine,
+    figure_distributions,
+    figure_error_vs_time,
+    figure_heatmap,
+    tables,
+)
+from ulpgate_report.page import page_views
+from ulpgate_report.values import numbers
+
+# What is tabled, and in which formats; a table has the name of its function.
+TABLES = (
+    (tables.paper_table, ("tex", "md", "csv")),
+    (tables.ulp_matrix, ("tex", "md", "csv")),
+    (tables.ulp_table, ("tex", "md", "csv")),
+    (tables.long_table, ("md", "csv")),
+    (tables.mismatch_table, ("md", "csv")),
+)
+# What is drawn: each gives (name, caption, figure or None where there is nothing to draw).
+FIGURES = (
+    figure_heatmap.draw,
+    figure_error_vs_time.draw,
+    figure_distributions.draw_real,
+    figure_distributions.draw_complex,
+    figure_distributions.draw_special,
+)
+# Beginnings of the names of all figures that FIGURES may ever write.
+FAMILIES = ("heatmap", "error_vs_time", "distributions")
+
+
+def of(run):
+    """The combined run, None where no function was run."""
+    return combine.combine_run(run) if run.math else None
+
+
+def printed(combined):
+    """Tables for the terminal."""
+    return [tables.ulp_matrix(combined)]
+
+
+def headline(combined):
+    """What stands above everything."""
+    cells = combined.cells.values()
+    mismatches = sum(cell.mismatches for cell in cells)
+    disagreed = sum(cell.oracle_disagreed for cell in cells)
+    compared = sum(cell.oracle_compared for cell in cells)
+    return [
+        (f"{sum(cell.samples for cell in cells):,} samples,", False),
+        (f"{mismatches:,}" if mismatches else "none", bool(mismatches)),
+        (f"of the wrong kind; oracles compared on {compared:,} samples,", False),
+        (f"{disagreed:,}" if disagreed else "none", bool(disagreed)),
+        ("disagreed.", False),
+    ]
+
+
+def _hover(row, token, cell):
+    lines = [f"{row.label}, {token}: {numbers.short_ulp(cell.max_ulp)} ULP"]
+    if cell.argmax:
+        lines.append(f"at {', '.join(cell.argmax)} ({cell.stratum})")
+    lines.append(
+        f"p99 {numbers.short_ulp(cell.p99_ulp)}, mean {numbers.short_ulp(cell.mean_ulp)}, "
+        f"{cell.correctly_rounded} of {cell.judged} correctly rounded"
+    )
+    lines += [f"{name}: {count}" for name, count in cell.mismatch.items()]
+    return "\n".join(lines)
+
+
+def _heat_view(combined):
+    """The matrix of maximum errors with colours and hover text."""
+    cells = [
+        [
+            (row, token, combined.cells[row, token])
+            if (row, token) in combined.cells
+            else None
+            for token in combined.type_tokens
+        ]
+        for row in combined.rows
+    ]
+    return page_views.heat_view(
+        tables.ulp_matrix(combined),
+        cells,
+        lambda cell: cell[2].max_ulp,
+        lambda cell: _hover(*cell),
+        heat_colours.ULP,
+    )
+
+
+def distributions(combined):
+    """What the page draws: per row and type the judged and exact counts and the buckets, types by index."""
+    found = {}
+    for row in combined.rows:
+        curves = {}
+        for index, token in enumerate(combined.type_tokens):
+            cell = combined.cells.get((row, token))
+            if cell is not None and cell.judged:
+                curves[index] = [cell.judged, cell.exact_count, list(cell.buckets)]
+        if curves:
+            found[row.label] = curves
+    types = [
+        {"token": token, "colour": figure_style.colour(index)}
+        for index, token in enumerate(combined.type_tokens)
+    ]
+    return {"types": types, "curves": found}
+
+
+def sections(combined, drawn):
+    """The sections of the page."""
+    untimed = "Nothing was timed."
+    if combined.time_ns:
+        untimed = "No function was both timed and measured on the strata uniform and stratified."
+    view = page_views.table_view
+    return [
+        page_views.section(
+            "heat", "Maximum error", page_views.table(_heat_view(combined))
+        ),
+        page_views.section(
+            "time",
+            "Error against time",
+            *page_views.figures(drawn, "error_vs_time", "Error against time", untimed),
+        ),
+        page_views.section(
+            "distribution", "Distribution of the error", {"kind": "distribution"}
+        ),
+        page_views.section(
+            "paper",
+            "The paper's table",
+            page_views.table(view(tables.paper_table(combined))),
+        ),
+        page_views.section(
+            "ulp",
+            "Where it happens",
+            page_views.table(view(tables.ulp_table(combined))),
+        ),
+        page_views.section(
+            "mismatches",
+            "Mismatches",
+            page_views.table(view(tables.mismatch_table(combined))),
+        ),
+        page_views.section(
+            "all",
+            "All records",
+            page_views.details(view(tables.long_table(combined)), "records"),
+        ),
+    ]

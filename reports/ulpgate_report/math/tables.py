@@ -1,0 +1,145 @@
+"""What is tabled of the math functions: columns and rows, without any format."""
+from ulpgate_report.math.combine import PAPER_STRATA
+from ulpgate_report.tables.table import Column, Marked, Table
+from ulpgate_report.values import numbers
+from ulpgate_report.values.row import Row
+
+
+def _matrix(combined, name, caption, kind, cells, value_of):
+    """Rows by types; `value_of` takes a cell to its number."""
+    columns = [Column("function", "function", "code")]
+    columns += [Column(token, token, kind) for token in combined.type_tokens]
+    rows = []
+    for row in combined.rows:
+        line = [row.label]
+        for token in combined.type_tokens:
+            cell = cells.get((row, token))
+            line.append(cell and Marked(value_of(cell), cell.mismatches))
+        rows.append(tuple(line))
+    return Table(name, caption, tuple(columns), tuple(rows))
+
+
+def paper_table(combined):
+    """The published table: maximum integer distance over its two sets of arguments."""
+    strata = " and ".join(PAPER_STRATA)
+    return _matrix(
+        combined,
+        "paper_table",
+        f"Maximum error as an integer distance (float_distance) to the rounded reference, strata {strata} only. "
+        "!n: n samples of the wrong kind (NaN, infinity, sign of zero, overflow, underflow).",
+        "distance",
+        combined.paper_cells,
+        lambda cell: cell.max_float_distance,
+    )
+
+
+def ulp_matrix(combined):
+    """Maximum ULP error, function by type."""
+    return _matrix(
+        combined,
+        "ulp_matrix",
+        "Maximum error in ULP against the unrounded reference, all strata. "
+        "!n: n samples of the wrong kind (NaN, infinity, sign of zero, overflow, underflow).",
+        "ulp",
+        combined.cells,
+        lambda cell: cell.max_ulp,
+    )
+
+
+def ulp_table(combined):
+    """Maximum ULP error of each function and type and where it happens."""
+    rows = []
+    for row in combined.rows:
+        for token in combined.type_tokens:
+            cell = combined.cells.get((row, token))
+            if cell is not None:
+                rows.append(
+                    (
+                        row.label,
+                        token,
+                        cell.max_ulp,
+                        cell.p99_ulp,
+                        cell.stratum,
+                        cell.argmax,
+                        cell.mismatches,
+                    )
+                )
+    columns = (
+        Column("function", "function", "code"),
+        Column("type", "type", "code"),
+        Column("max_ulp", "max ULP", "ulp"),
+        Column("p99_ulp", "p99 ULP", "ulp"),
+        Column("stratum", "stratum", "text"),
+        Column("argument", "argument", "arguments"),
+        Column("mismatches", "mismatches", "count"),
+    )
+    caption = (
+        "Maximum error in ULP against the unrounded reference over all strata, an upper bound of its 99th percentile, "
+        "where the maximum happens, and the number of samples of the wrong kind."
+    )
+    return Table("ulp_table", caption, columns, tuple(rows))
+
+
+# Name, title and kind of the long table's columns that a record holds as they are.
+_LONG_FIELDS = (
+    ("type", "type", "code"),
+    ("stratum", "stratum", "text"),
+    ("samples", "samples", "count"),
+    ("judged", "judged", "count"),
+    ("max_ulp", "max ULP", "ulp"),
+    ("p99_ulp", "p99 ULP", "ulp"),
+    ("p50_ulp", "p50 ULP", "ulp"),
+    ("mean_ulp", "mean ULP", "ulp"),
+    ("correctly_rounded", "correctly rounded", "count"),
+    ("max_float_distance", "max float_distance", "distance"),
+    ("max_ulp_over_condition", "max ULP / condition", "ulp"),
+    ("implementation", "implementation", "text"),
+)
+
+
+def long_table(combined):
+    """Every record on a line of its own."""
+    columns = [Column("function", "function", "code")]
+    columns += [Column(*field) for field in _LONG_FIELDS]
+    columns += [
+        Column("mismatches", "mismatches", "count"),
+        Column("argument", "argument", "arguments"),
+    ]
+    rows = []
+    for record in combined.records:
+        label = Row(record["function"], record["part"], record["class"]).label
+        fields = [numbers.measured(record[name]) for name, _, _ in _LONG_FIELDS]
+        mismatches = sum(record["mismatch"].values())
+        rows.append((label, *fields, mismatches, tuple(record["argmax"])))
+    return Table("long_table", "Every record.", tuple(columns), tuple(rows))
+
+
+def mismatch_table(combined):
+    """Samples whose outcome is of the wrong kind, a line for each class that occurred."""
+    rows = []
+    for record in combined.records:
+        for name, count in sorted(record["mismatch"].items()):
+            if count:
+                first = record.get("mismatch_first", {}).get(name, ())
+                rows.append(
+                    (
+                        record["function"],
+                        record["part"],
+                        record["type"],
+                        record["stratum"],
+                        name,
+                        count,
+                        tuple(first),
+                    )
+                )
+    columns = (
+        Column("function", "function", "code"),
+        Column("part", "part", "text"),
+        Column("type", "type", "code"),
+        Column("stratum", "stratum", "text"),
+        Column("class", "class", "code"),
+        Column("count", "count", "count"),
+        Column("first_argument", "first argument", "arguments"),
+    )
+    caption = "Samples whose outcome is of the wrong kind, with the first argument of each class."
+    return Table("mismatch_table", caption, columns, tuple(rows))

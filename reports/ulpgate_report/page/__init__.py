@@ -1,0 +1,1 @@
+"""The page: blocks and sections, and the templates that show them."""

@@ -1,0 +1,58 @@
+"""The page: one self-contained HTML file with the tables, figures and distributions of every kind of record."""
+from pathlib import Path
+
+import jinja2
+
+from ulpgate_report.page.page_views import shown
+
+_TEMPLATES = Path(__file__).resolve().parent / "templates"
+
+
+def _is_long_list(value):
+    """Functions, kernels, types: the page shows them as tables, or the tables name them anyway."""
+    return isinstance(value, list) and any(isinstance(one, dict) for one in value)
+
+
+def _context_view(context):
+    """(name, text) of everything in the context but the long lists."""
+    order = ("tool", "plan", "seed", "complete", "shards", "samples", "strata")
+    order += ("compiler", "flags", "build_type", "libraries", "cpu", "threads")
+    rest = sorted(set(context) - set(order))
+    names = [
+        name
+        for name in (*order, *rest)
+        if name in context and not _is_long_list(context[name])
+    ]
+    return [(name.replace("_", " "), shown(context[name])) for name in names]
+
+
+def _types_view(context):
+    fields = ("token", "cpp_type", "total_bits", "decimal_places", "exponent_bits")
+    fields += ("significand_bits", "reference_bits")
+    rows = [
+        [shown("-" if entry.get(f) is None else entry[f]) for f in fields]
+        for entry in context.get("types", ())
+    ]
+    return {"columns": [f.replace("_", " ") for f in fields], "rows": rows}
+
+
+def render(context, headlines, sections, distributions=None):
+    """The whole page; a headline is a list of (text, whether it alerts), a section comes from page_views."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    # Jinja would sort the keys; the functions stay in display order.
+    environment.policies["json.dumps_kwargs"] = {}
+    return environment.get_template("page.html.j2").render(
+        context=_context_view(context),
+        complete=context.get("complete", True),
+        types=_types_view(context),
+        headlines=headlines,
+        sections=sections,
+        distributions=distributions,
+    )

@@ -1,0 +1,154 @@
+"""A suite: a directory of run directories, reported as one; a directory that is a run by itself is read as that."""
+from pathlib import Path
+
+from ulpgate_report.records import pendulum_records, records, scene_records
+from ulpgate_report.records.errors import InvalidInput, NothingMeasured
+
+_CONTEXT = "context.json"
+_RECORDS = "*.jsonl"
+# Text of every plan, which differs from run to run and is long.
+_NOT_MERGED = ("plan_text",)
+# Each run has one of its own, though two may be alike.
+_OF_EACH = ("plan",)
+
+
+def members(directory):
+    """The run directories of a suite by name, none where the directory is a run by itself or no suite."""
+    directory = Path(directory)
+    if not directory.is_dir() or (directory / _CONTEXT).exists():
+        return []
+    return [one for one in sorted(directory.iterdir()) if (one / _CONTEXT).is_file()]
+
+
+def _merged_context(contexts):
+    """What all runs were made with: one value where they agree, else each run's by its name."""
+    merged = {}
+    for key in dict.fromkeys(key for context in contexts.values() for key in context):
+        if key in _NOT_MERGED:
+            continue
+        values = {name: c[key] for name, c in contexts.items() if key in c}
+        first = next(iter(values.values()))
+        alike = len(values) == len(contexts) and key not in _OF_EACH
+        alike = alike and all(value == first for value in values.values())
+        merged[key] = first if alike else values
+    types = {}
+    for context in contexts.values():
+        for entry in context.get("types", ()):
+            types.setdefault(entry["token"], entry)
+    if types:
+        merged["types"] = list(types.values())
+    merged["complete"] = all(c.get("complete", True) for c in contexts.values())
+    return merged
+
+
+def _renamed(scenes, name):
+    """The scenes under names that tell the run: the same scene may be in several."""
+
+    def scene(old):
+        return f"{old}_{name}"
+
+    def rows(found):
+        return tuple({**row, "scene": scene(row["scene"])} for row in found)
+
+    def columns(found):
+        return {(scene(old), token): value for (old, token), value in found.items()}
+
+    return scene_records.Scenes(
+        rows(scenes.records),
+        rows(scenes.timings),
+        columns(scenes.series),
+        columns(scenes.divergences),
+        columns(scenes.snapshots),
+        tuple(f"{name}/{file}" for file in scenes.unknown),
+        scenes.not_missed,
+    )
+
+
+def _merged_scenes(runs):
+    """The scenes of all runs, None where no run has any."""
+    found = [_renamed(run.scenes, name) for name, run in runs.items() if run.scenes]
+    if not found:
+        return None
+
+    def rows(what):
+        return tuple(row for scenes in found for row in getattr(scenes, what))
+
+    def columns(what):
+        return {
+            k: v for scenes in found for k, v in sorted(getattr(scenes, what).items())
+        }
+
+    return scene_records.Scenes(
+        rows("records"),
+        rows("timings"),
+        columns("series"),
+        columns("divergences"),
+        columns("snapshots"),
+        rows("unknown"),
+        frozenset().union(*(scenes.not_missed for scenes in found)),
+    )
+
+
+def _load_members(paths):
+    """({name: run}, sentences about those left out)."""
+    chains = set()
+    for path in paths:
+        with _place(path):
+            chains |= pendulum_records.chains_in(path)
+    runs, notes = {}, []
+    for path in paths:
+        try:
+            with _place(path):
+                runs[path.name] = records.load(path, path.name, chains)
+        except NothingMeasured:
+            notes.append(f"{path.name}: no record; left out.")
+    return runs, notes
+
+
+class _place:
+    """Puts the name of a run before the file that a refusal names."""
+
+    def __init__(self, path):
+        self._name = path.name
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, error, trace):
+        if isinstance(error, InvalidInput):
+            raise InvalidInput(f"{self._name}/{error}") from error
+
+
+def _notes(directory, runs):
+    """Sentences about what a suite's report does not show."""
+    found = [
+        f"{name}: functions and kernels are reported apart: report {directory.name}/{name}."
+        for name, run in runs.items()
+        if run.math or run.kernels
+    ]
+    for path in sorted(directory.iterdir()):
+        if path.is_dir() and not (path / _CONTEXT).exists():
+            if any(path.glob(_RECORDS)):
+                found.append(f"{path.name}: records without {_CONTEXT}; left out.")
+    return found
+
+
+def load(directory):
+    """Read a run directory, or all those of a suite as one run."""
+    paths = members(directory)
+    if not paths:
+        return records.load(directory)
+    directory = Path(directory)
+    runs, notes = _load_members(paths)
+    scenes = _merged_scenes(runs)
+    chains = [one for run in runs.values() if run.pendulum for one in run.pendulum.runs]
+    if not (scenes or chains):
+        raise NothingMeasured(f"{directory}: no record of a scene in any run")
+    return records.Run(
+        _merged_context({name: run.context for name, run in runs.items()}),
+        [],
+        {},
+        scenes=scenes,
+        pendulum=pendulum_records.Pendulum(tuple(chains)) if chains else None,
+        notes=(*notes, *_notes(directory, runs)),
+    )

@@ -1,0 +1,194 @@
+"""The tables of a run of scenes as plain data."""
+import math
+
+from ulpgate_report.scenes import benchmark
+from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.values import numbers
+
+_SCENE = Column("scene", "scene", "code")
+_TYPE = Column("type", "type", "code")
+
+
+def _field(record, name):
+    return numbers.signed(record.get(name))
+
+
+def scene_table(scenes):
+    """What was run and where it ended."""
+    rows = []
+    for record in scenes.records:
+        mean = record.get("mean_position") or (None, None, None)
+        rows.append(
+            (
+                record["scene"],
+                record["type"],
+                record.get("variant") or None,
+                record["integrator"],
+                str(record["dt"]),
+                record["steps"],
+                _field(record, "t_end"),
+                record["bodies"],
+                record.get("contacts"),
+                _field(record, "kinetic_energy_half_step_J"),
+                *map(numbers.signed, mean),
+                _field(record, "max_energy_error"),
+            )
+        )
+    columns = (
+        _SCENE,
+        _TYPE,
+        Column("variant", "variant", "text"),
+        Column("integrator", "integrator", "code"),
+        Column("dt_s", "dt (s)", "text"),
+        Column("steps", "steps", "count"),
+        Column("t_end_s", "end (s)", "real"),
+        Column("bodies", "bodies", "count"),
+        Column("contacts", "contacts", "count"),
+        Column("kinetic_half_step_J", "kinetic, half step (J)", "real"),
+        Column("mean_x_m", "mean x (m)", "real"),
+        Column("mean_y_m", "mean y (m)", "real"),
+        Column("mean_z_m", "mean z (m)", "real"),
+        Column("max_energy_error_J", "energy error (J)", "real"),
+    )
+    caption = (
+        "Scenes at their end: kinetic energy of the velocities half a step before, mean position of the bodies, and the largest distance of the energy "
+        "account from its value at the start (- where no account was kept)."
+    )
+    return Table("scene_table", caption, columns, tuple(rows))
+
+
+def scene_states(scenes):
+    """What identifies a result: its hash, and what was left out on the way."""
+    rows = []
+    for record in scenes.records:
+        left_out = record.get("parts_left_out") or ()
+        rows.append(
+            (
+                record["scene"],
+                record["type"],
+                record.get("variant") or None,
+                record.get("memory_bytes"),
+                record.get("state_hash"),
+                record["plan"],
+                "; ".join(f"{entry['part']}: {entry['why']}" for entry in left_out),
+            )
+        )
+    columns = (
+        _SCENE,
+        _TYPE,
+        Column("variant", "variant", "text"),
+        Column("memory_bytes", "memory (bytes)", "count"),
+        Column("state_hash", "state hash", "code"),
+        Column("plan", "plan", "code"),
+        Column("left_out", "left out, and why", "prose"),
+    )
+    caption = "Hash of the last state, to compare bit for bit, and the parts of a step that the scene did not need."
+    return Table("scene_states", caption, columns, tuple(rows))
+
+
+def energy_table(scenes):
+    """The energy account at the end."""
+    kept = [record for record in scenes.records if record.get("energy")]
+    names = list(dict.fromkeys(name for r in kept for name in r["energy"]))
+    # The sum is what the parts are for: last, whatever the order in the file.
+    names.sort(key=lambda name: name == "sum")
+    rows = [
+        (
+            record["scene"],
+            record["type"],
+            *(numbers.signed(record["energy"].get(name)) for name in names),
+            _field(record, "energy_start"),
+            _field(record, "max_energy_error"),
+        )
+        for record in kept
+    ]
+    columns = (
+        _SCENE,
+        _TYPE,
+        *(Column(f"{name}_J", f"{name} (J)", "real") for name in names),
+        Column("energy_start_J", "sum at start (J)", "real"),
+        Column("max_energy_error_J", "largest error (J)", "real"),
+    )
+    caption = "The energy account at the end of each scene, and how far its sum ever was from the start."
+    return Table("energy_table", caption, columns, tuple(rows))
+
+
+def divergence_table(scenes):
+    """How far a type is from the reference at the end."""
+    rows = []
+    for scene in scenes.names:
+        for token, columns in scenes.of(scenes.divergences, scene):
+            if columns["step"]:
+                rows.append(
+                    (
+                        scene,
+                        token,
+                        int(columns["step"][-1]),
+                        columns["max_position_error_m"][-1],
+                        columns["max_position_ulp"][-1],
+                        _first_step_with_other_contacts(columns),
+                    )
+                )
+    columns = (
+        _SCENE,
+        _TYPE,
+        Column("step", "last step", "count"),
+        Column("max_position_error_m", "position error (m)", "real"),
+        Column("max_position_ulp", "position error (ULP)", "real"),
+        Column("other_contacts_step", "other contacts from step", "count"),
+    )
+    caption = (
+        "RealHP<1> against RealHP<4> from one state: the largest error of a position at the last step recorded, and the "
+        "first recorded step at which the two do not have the same contacts."
+    )
+    return Table("divergence_table", caption, columns, tuple(rows))
+
+
+def _first_step_with_other_contacts(columns):
+    names = ("contacts_only_here", "contacts_only_in_reference")
+    if any(name not in columns for name in names):
+        return None
+    for step, here, there in zip(columns["step"], *(columns[n] for n in names)):
+        if here or there:
+            return int(step)
+    return None
+
+
+def benchmark_table(scenes):
+    """How fast the scenes run, and how much slower than in double."""
+    rows = []
+    for bar in benchmark.bars(scenes):
+        timing = bar.timing
+        rows.append(
+            (
+                timing["scene"],
+                timing["type"],
+                timing["threads"],
+                timing["steps"],
+                f"{timing['kept']} of {timing['repeats']}",
+                timing["iterations_per_s"],
+                timing["deviation"],
+                bar.slowdown,
+                bar.slowdown_deviation
+                if math.isfinite(bar.slowdown_deviation)
+                else None,
+                bar.paper_slowdown,
+            )
+        )
+    columns = (
+        _SCENE,
+        _TYPE,
+        Column("threads", "threads", "count"),
+        Column("steps", "steps", "count"),
+        Column("kept", "repeats kept", "text"),
+        Column("iterations_per_s", "iterations/s", "real"),
+        Column("deviation", "deviation", "real"),
+        Column("slowdown", "slowdown", "real"),
+        Column("slowdown_deviation", "deviation", "real"),
+        Column("paper_slowdown", "slowdown, paper", "real"),
+    )
+    caption = (
+        "Iterations per second: mean and standard deviation of the repeats within two standard deviations; slowdown "
+        "against double on as many threads, beside the published one (16 threads)."
+    )
+    return Table("benchmark_table", caption, columns, tuple(rows))

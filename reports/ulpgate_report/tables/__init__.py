@@ -1,0 +1,1 @@
+"""What a table is, and each format that one is written in."""

@@ -1,0 +1,103 @@
+"""Writes a table as a LaTeX longtable (booktabs, siunitx), and a document that shows all of them."""
+from ulpgate_report.tables import cell_text
+
+ARGUMENT_DIGITS = 13
+COLUMNS_OF_PORTRAIT = 9
+_SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    "-": "{-}",
+    **{c: "\\" + c for c in "#$%&_{}"},
+}
+
+_DOCUMENT = r"""\documentclass[a4paper]{article}
+\usepackage[utf8]{inputenc}
+\usepackage[margin=15mm%s]{geometry}
+\usepackage{array}
+\usepackage{booktabs}
+\usepackage{longtable}
+\usepackage{siunitx}
+\begin{document}
+%s
+\end{document}
+"""
+
+
+def escape(text):
+    """Text that LaTeX prints as it is; other than ASCII becomes `?`, which every font has."""
+    plain = text.encode("ascii", "replace").decode("ascii")
+    return "".join(_SPECIAL.get(c, c) for c in plain)
+
+
+def _number(text):
+    if text in ("inf", "-inf"):
+        return r"$-\infty$" if text[0] == "-" else r"$\infty$"
+    return text if text in ("-", "nan") else rf"\num{{{text}}}"
+
+
+def _text(cell, kind):
+    value, mark = cell_text.value_and_mark(cell)
+    shown = cell_text.short(cell, kind, ARGUMENT_DIGITS)
+    if kind in cell_text.NUMERIC_KINDS:
+        shown = "--" if value is None else _number(shown)
+    elif kind in cell_text.CODE_KINDS:
+        shown = rf"\texttt{{{escape(shown)}}}"
+    else:
+        shown = escape(shown)
+    return shown + rf"\textsuperscript{{{escape(mark)}}}" if mark else shown
+
+
+def _shape(kind):
+    if kind == "prose":
+        return r">{\raggedright\arraybackslash}p{70mm}"
+    return "r" if kind in cell_text.NUMERIC_KINDS else "l"
+
+
+def _caption(table):
+    text = table.caption
+    cut = any(
+        cell_text.is_cut(cell, column.kind, ARGUMENT_DIGITS)
+        for row in table.rows
+        for cell, column in zip(row, table.columns)
+    )
+    if cut:
+        text += " Long arguments are cut (...); the CSV file has them whole."
+    return escape(text)
+
+
+def render(table):
+    """The longtable; it repeats its head on every page."""
+    kinds = [column.kind for column in table.columns]
+    shape = "".join(map(_shape, kinds))
+    titles = []
+    for column in table.columns:
+        title = escape(column.title)
+        # Types are told by their token, in the columns' heads as in the command line.
+        is_type = column.kind in ("ulp", "distance") and column.name == column.title
+        titles.append(rf"\texttt{{{title}}}" if is_type else title)
+    head = [r"\toprule", " & ".join(titles) + r" \\", r"\midrule"]
+    lines = [
+        r"{\scriptsize\setlength{\tabcolsep}{3pt}",
+        rf"\begin{{longtable}}{{@{{}}{shape}@{{}}}}",
+        rf"\caption{{{_caption(table)}}}\label{{tab:{table.name}}}\\",
+        *head,
+        r"\endfirsthead",
+        *head,
+        r"\endhead",
+        r"\bottomrule",
+        r"\endfoot",
+    ]
+    for row in table.rows:
+        lines.append(" & ".join(map(_text, row, kinds)) + r" \\")
+    return "\n".join([*lines, r"\end{longtable}}", ""])
+
+
+def document(tables):
+    """A complete document of the tables, each in NAME.tex beside it; wide ones turn the paper."""
+    wide = any(len(table.columns) > COLUMNS_OF_PORTRAIT for table in tables)
+    inputs = "\n".join(rf"\input{{{table.name}.tex}}" for table in tables)
+    return _DOCUMENT % (",landscape" if wide else "", inputs)
