@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <type_traits>
 
 #include "reference/native/large_angles.hpp"
@@ -180,23 +181,20 @@ double bound_at(W x, W result) {
 }
 
 // The gamma functions of binary64 where a short formula does: a tenth of the library's time, for nine of ten
-// binary32 numbers.  `known` says whether there is one.
+// binary32 numbers.
 // Negative numbers of 24 bits from here on are integers, poles of both.
 constexpr double poles_below = -0x1p23;
 constexpr double gamma_series_below = 0x1p-27;
 
-double short_tgamma(double x, int argument_bits, bool& known) {
-  known = true;
+std::optional<double> short_tgamma(double x, int argument_bits) {
   // 1/x - gamma + O(x), DLMF 5.7.1; the next term is x^2 of the first.
   if (std::fabs(x) < gamma_series_below) return 1 / x - std::numbers::egamma;
   if (x > 171.7) return std::numeric_limits<double>::infinity();
   if (x <= poles_below && argument_bits <= 24) return std::numeric_limits<double>::quiet_NaN();
-  known = false;
-  return 0;
+  return std::nullopt;
 }
 
-double short_lgamma(double x, int argument_bits, bool& known) {
-  known = true;
+std::optional<double> short_lgamma(double x, int argument_bits) {
   if (std::fabs(x) < gamma_series_below) return -std::log(std::fabs(x)) - std::numbers::egamma * x;
   // Stirling's series, DLMF 5.11.1; the first term left out is 1/(1680 x^7).
   if (x >= 64 && x < 0x1p1000) {
@@ -207,8 +205,7 @@ double short_lgamma(double x, int argument_bits, bool& known) {
            (half_log_two_pi + r * (1.0 / 12 - s * (1.0 / 360 - s * (1.0 / 1260))));
   }
   if (x <= poles_below && argument_bits <= 24) return std::numeric_limits<double>::infinity();
-  known = false;
-  return 0;
+  return std::nullopt;
 }
 
 // One point; returns the bound of its error.
@@ -234,9 +231,8 @@ double evaluate(const W* a, W& result, int argument_bits) {
     result = product + a[2];
     return products_are_exact ? bound_of_sum<W>(result, product, a[2]) : -1;
   } else if constexpr (Id == tgamma && std::is_same_v<W, double>) {
-    bool known = false;
-    result = short_tgamma(a[0], argument_bits, known);
-    if (!known) result = Library<Id>::call(a);
+    const std::optional<double> value = short_tgamma(a[0], argument_bits);
+    result = value ? *value : Library<Id>::call(a);
     return bound_of<W>(Id);
   } else if constexpr (Id == lgamma) {
     // libquadmath's is only absolutely accurate next to the zeros between its poles.
@@ -246,9 +242,8 @@ double evaluate(const W* a, W& result, int argument_bits) {
     // The C library's own notes the sign in a variable that all threads share.
     int sign = 0;
     if constexpr (std::is_same_v<W, double>) {
-      bool known = false;
-      result = short_lgamma(a[0], argument_bits, known);
-      if (!known) result = ::lgamma_r(a[0], &sign);
+      const std::optional<double> value = short_lgamma(a[0], argument_bits);
+      result = value ? *value : ::lgamma_r(a[0], &sign);
     } else if constexpr (std::is_same_v<W, long double>) {
       result = ::lgammal_r(a[0], &sign);
     } else {

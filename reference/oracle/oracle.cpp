@@ -31,19 +31,19 @@ int exact_logb(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t rounding) {
 }
 
 int exact_erf(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
-  return oracle::error_function(out, x);
+  return oracle::error_function(out, x).ternary;
 }
 
 int exact_erfc(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
-  return oracle::complementary_error_function(out, x);
+  return oracle::complementary_error_function(out, x).ternary;
 }
 
 int exact_gamma(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
-  return oracle::gamma(out, x);
+  return oracle::gamma(out, x).ternary;
 }
 
 int exact_log_gamma(mpfr_ptr out, mpfr_srcptr x, mpfr_rnd_t /*nearest*/) {
-  return oracle::log_gamma(out, x);
+  return oracle::log_gamma(out, x).ternary;
 }
 
 struct ComplexOut {

@@ -128,22 +128,28 @@ bool round_to(mpfr_ptr out, const MpfrValue& value, int& ternary) {
   return true;
 }
 
-bool is_moderate(mpfr_ptr out, mpfr_srcptr x) {
-  if (mpfr_regular_p(x) == 0 || mpfr_get_prec(out) > greatest_precision) return false;
+bool is_moderate(mpfr_srcptr x, long bits) {
+  if (mpfr_regular_p(x) == 0 || bits > greatest_precision) return false;
   const double size = std::fabs(mpfr_get_d(x, MPFR_RNDN));
   return size >= least_argument && size <= greatest_argument;
+}
+
+// Bits of erfc(|x|) that reach into its sum with 1 or 2.
+long bits_in_sum(mpfr_srcptr x, long rule_bits) {
+  return rule_bits - static_cast<long>(bits_below_one(std::fabs(mpfr_get_d(x, nearest)))) + 2;
+}
+
+// Next to nothing is left to MPFR, which sees that.
+bool serves_complement(mpfr_srcptr x, long bits) {
+  return is_moderate(x, bits) && bits_in_sum(x, bits + guard_bits) >= guard_bits;
 }
 
 // base - erfc(|x|) for base 1 and 2, with the sign of x for base 1.
 bool by_complement(mpfr_ptr out, mpfr_srcptr x, unsigned long base, int& ternary) {
   const long rule_bits = mpfr_get_prec(out) + guard_bits;
-  const double size = std::fabs(mpfr_get_d(x, nearest));
-  // Of erfc no more is wanted than reaches into the sum; next to nothing is left to MPFR, which sees that.
-  const long bits = rule_bits - static_cast<long>(bits_below_one(size)) + 2;
-  if (bits < guard_bits) return false;
   MpfrValue positive(mpfr_get_prec(x));
   mpfr_abs(positive, x, nearest);
-  MpfrValue small(std::min(bits, rule_bits));
+  MpfrValue small(std::min(bits_in_sum(x, rule_bits), rule_bits));
   erfc_by_rule(small, positive, rule_bits);
   MpfrValue value(rule_bits);
   mpfr_ui_sub(value, base, small, nearest);
@@ -151,24 +157,35 @@ bool by_complement(mpfr_ptr out, mpfr_srcptr x, unsigned long base, int& ternary
   return round_to(out, value, ternary);
 }
 
-}  // namespace
-
-int error_function(mpfr_ptr out, mpfr_srcptr x) {
-  int ternary = 0;
-  if (is_moderate(out, x) && by_complement(out, x, 1, ternary)) return ternary;
-  return mpfr_erf(out, x, nearest);
-}
-
-int complementary_error_function(mpfr_ptr out, mpfr_srcptr x) {
-  int ternary = 0;
-  if (!is_moderate(out, x)) return mpfr_erfc(out, x, nearest);
-  if (mpfr_sgn(x) < 0) {
-    if (by_complement(out, x, 2, ternary)) return ternary;
-    return mpfr_erfc(out, x, nearest);
-  }
+bool by_rule(mpfr_ptr out, mpfr_srcptr x, int& ternary) {
   MpfrValue value(mpfr_get_prec(out) + guard_bits);
   erfc_by_rule(value, x, mpfr_get_prec(value.get()));
-  return round_to(out, value, ternary) ? ternary : mpfr_erfc(out, x, nearest);
+  return round_to(out, value, ternary);
+}
+
+}  // namespace
+
+bool rule_serves_erf(mpfr_srcptr x, long bits) {
+  return serves_complement(x, bits);
+}
+
+bool rule_serves_erfc(mpfr_srcptr x, long bits) {
+  return mpfr_sgn(x) < 0 ? serves_complement(x, bits) : is_moderate(x, bits);
+}
+
+RoundingMade error_function(mpfr_ptr out, mpfr_srcptr x) {
+  int ternary = 0;
+  if (rule_serves_erf(x, mpfr_get_prec(out)) && by_complement(out, x, 1, ternary))
+    return {ternary, Method::formula};
+  return {mpfr_erf(out, x, nearest), Method::mpfr};
+}
+
+RoundingMade complementary_error_function(mpfr_ptr out, mpfr_srcptr x) {
+  int ternary = 0;
+  if (rule_serves_erfc(x, mpfr_get_prec(out)) &&
+      (mpfr_sgn(x) < 0 ? by_complement(out, x, 2, ternary) : by_rule(out, x, ternary)))
+    return {ternary, Method::formula};
+  return {mpfr_erfc(out, x, nearest), Method::mpfr};
 }
 
 }  // namespace ulpgate::oracle

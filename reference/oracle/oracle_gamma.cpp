@@ -58,17 +58,19 @@ LogGammaSeries& series_of(long bits) {
   return all.try_emplace(bits, bits).first->second;
 }
 
+long terms_of_series(mpfr_srcptr x, long bits) {
+  return bits / -static_cast<long>(mpfr_get_exp(x)) + 1;
+}
+
 // Calls finish(value) with value = ln Gamma(1 + x) at more bits than out has; rounds what it then holds to
 // out, if 32 of those bits beyond out's decide that and show that no value of out's precision or one bit more
 // is met. `ternary` is then what MPFR would say.
 template <class Finish>
 bool by_series(mpfr_ptr out, mpfr_srcptr x, int& ternary, Finish&& finish) {
-  if (mpfr_regular_p(x) == 0 || mpfr_get_exp(x) > largest_exponent) return false;
+  if (!series_serves_gamma(x, mpfr_get_prec(out))) return false;
   const long bits = mpfr_get_prec(out) + guard_bits;
-  const long terms = bits / -static_cast<long>(mpfr_get_exp(x)) + 1;
-  if (terms > most_terms) return false;
   MpfrValue value(bits);
-  series_of(bits)(value, x, terms);
+  series_of(bits)(value, x, terms_of_series(x, bits));
   finish(value);
   // Five roundings and the cut series: under 2^4 ulp.
   if (mpfr_can_round(value, bits - 8, nearest, MPFR_RNDZ, mpfr_get_prec(out) + 1) == 0) return false;
@@ -78,17 +80,23 @@ bool by_series(mpfr_ptr out, mpfr_srcptr x, int& ternary, Finish&& finish) {
 
 }  // namespace
 
-int gamma(mpfr_ptr out, mpfr_srcptr x) {
+bool series_serves_gamma(mpfr_srcptr x, long bits) {
+  return mpfr_regular_p(x) != 0 && mpfr_get_exp(x) <= largest_exponent &&
+         terms_of_series(x, bits + guard_bits) <= most_terms;
+}
+
+RoundingMade gamma(mpfr_ptr out, mpfr_srcptr x) {
   int ternary = 0;
   const auto finish = [&](MpfrValue& value) {
     // Gamma(x) = Gamma(1 + x)/x.
     mpfr_exp(value, value, nearest);
     mpfr_div(value, value, x, nearest);
   };
-  return by_series(out, x, ternary, finish) ? ternary : mpfr_gamma(out, x, nearest);
+  if (by_series(out, x, ternary, finish)) return {ternary, Method::formula};
+  return {mpfr_gamma(out, x, nearest), Method::mpfr};
 }
 
-int log_gamma(mpfr_ptr out, mpfr_srcptr x) {
+RoundingMade log_gamma(mpfr_ptr out, mpfr_srcptr x) {
   int ternary = 0;
   const auto finish = [&](MpfrValue& value) {
     MpfrValue log(mpfr_get_prec(value.get()));
@@ -97,7 +105,8 @@ int log_gamma(mpfr_ptr out, mpfr_srcptr x) {
     mpfr_sub(value, value, log, nearest);
   };
   int sign = 0;
-  return by_series(out, x, ternary, finish) ? ternary : mpfr_lgamma(out, &sign, x, nearest);
+  if (by_series(out, x, ternary, finish)) return {ternary, Method::formula};
+  return {mpfr_lgamma(out, &sign, x, nearest), Method::mpfr};
 }
 
 }  // namespace ulpgate::oracle

@@ -89,10 +89,12 @@ TEST(Oracle, SpecialFunctionsAgreeWithBoostInCppBinFloat) {
   }
 }
 
-// Correctly rounded like MPFR's own, with the same word on what was rounded which way.
+// Correctly rounded like MPFR's own, with the same word on what was rounded which way, and by our formulas
+// wherever they are said to serve: one that always left the work to MPFR would be right as well.
 TEST(Oracle, GammasNextToZeroAreThoseOfMpfr) {
   const WideExponentRange range;
   const auto sign = [](int n) { return (n > 0) - (n < 0); };
+  int by_series = 0;
   for (const long precision : {24L, 64L, 113L, 145L, 239L, 828L}) {
     for (const long exponent : {-7L, -8L, -9L, -13L, -20L, -40L, -75L, -149L, -1074L, -20000L}) {
       for (const char* digits : {"1", "-1", "1.9", "-1.37", "0x1.fffffep+0", "-0x1.55555555555555p+0"}) {
@@ -101,21 +103,38 @@ TEST(Oracle, GammasNextToZeroAreThoseOfMpfr) {
         mpfr_mul_2si(x, x, exponent, MPFR_RNDN);
         const std::string at =
             std::string(digits) + " 2^" + std::to_string(exponent) + " in " + std::to_string(precision);
-        int rounded = oracle::gamma(got, x);
-        EXPECT_EQ(sign(rounded), sign(mpfr_gamma(want, x, MPFR_RNDN))) << at;
+        const bool ours = oracle::series_serves_gamma(x, precision);
+        // Whether 32 bits beyond the wanted ones decide the rounding: Gamma(x) is 1/x - 0.577..., and 1/x may
+        // have few bits.
+        const auto decides = [&](auto&& function) {
+          MpfrValue value(precision + 40);
+          function(value, x, MPFR_RNDN);
+          return mpfr_can_round(value, precision + 32, MPFR_RNDN, MPFR_RNDZ, precision + 1) != 0;
+        };
+        oracle::RoundingMade rounding = oracle::gamma(got, x);
+        EXPECT_EQ(rounding.method == oracle::Method::formula, ours && decides(mpfr_gamma)) << "gamma " << at;
+        EXPECT_EQ(sign(rounding.ternary), sign(mpfr_gamma(want, x, MPFR_RNDN))) << at;
         EXPECT_NE(mpfr_equal_p(got, want), 0) << "gamma " << at;
+        by_series += rounding.method == oracle::Method::formula ? 1 : 0;
         int ignored = 0;
-        rounded = oracle::log_gamma(got, x);
-        EXPECT_EQ(sign(rounded), sign(mpfr_lgamma(want, &ignored, x, MPFR_RNDN))) << at;
+        rounding = oracle::log_gamma(got, x);
+        const auto lgamma = [](mpfr_ptr out, mpfr_srcptr a, mpfr_rnd_t nearest) {
+          int of_gamma = 0;
+          return mpfr_lgamma(out, &of_gamma, a, nearest);
+        };
+        EXPECT_EQ(rounding.method == oracle::Method::formula, ours && decides(lgamma)) << "lgamma " << at;
+        EXPECT_EQ(sign(rounding.ternary), sign(mpfr_lgamma(want, &ignored, x, MPFR_RNDN))) << at;
         EXPECT_NE(mpfr_equal_p(got, want), 0) << "lgamma " << at;
       }
     }
   }
+  EXPECT_GT(by_series, 150);
 }
 
 TEST(Oracle, ErrorFunctionsAreThoseOfMpfr) {
   const WideExponentRange range;
   const auto sign = [](int n) { return (n > 0) - (n < 0); };
+  int by_rule = 0;
   std::vector<double> points = {1.5, 0x1.7ffffffffffffp+0, 64, 0x1.0000000000001p+6, 26.5, 100, 1e9};
   // Around the ends of the strips, sqrt(bits ln 2), of all precisions below.
   for (double x = 1.6; x < 30; x += 0.83) points.push_back(x);
@@ -134,14 +153,47 @@ TEST(Oracle, ErrorFunctionsAreThoseOfMpfr) {
         mpfr_div_ui(x, x, 3, MPFR_RNDN);
         mpfr_mul_ui(x, x, 3, MPFR_RNDN);
         const std::string at = std::to_string(side * points[i]) + " in " + std::to_string(precision);
-        int rounded = oracle::complementary_error_function(got, x);
-        EXPECT_EQ(sign(rounded), sign(mpfr_erfc(want, x, MPFR_RNDN))) << at;
+        oracle::RoundingMade rounding = oracle::complementary_error_function(got, x);
+        bool ours = oracle::rule_serves_erfc(x, precision);
+        by_rule += ours ? 1 : 0;
+        EXPECT_EQ(rounding.method == oracle::Method::formula, ours) << "erfc " << at;
+        EXPECT_EQ(sign(rounding.ternary), sign(mpfr_erfc(want, x, MPFR_RNDN))) << at;
         EXPECT_NE(mpfr_equal_p(got, want), 0) << "erfc " << at;
-        rounded = oracle::error_function(got, x);
-        EXPECT_EQ(sign(rounded), sign(mpfr_erf(want, x, MPFR_RNDN))) << at;
+        rounding = oracle::error_function(got, x);
+        ours = oracle::rule_serves_erf(x, precision);
+        by_rule += ours ? 1 : 0;
+        EXPECT_EQ(rounding.method == oracle::Method::formula, ours) << "erf " << at;
+        EXPECT_EQ(sign(rounding.ternary), sign(mpfr_erf(want, x, MPFR_RNDN))) << at;
         EXPECT_NE(mpfr_equal_p(got, want), 0) << "erf " << at;
       }
     }
+  }
+  EXPECT_GT(by_rule, 1000);
+}
+
+TEST(Oracle, TheRuleIsForModerateArgumentsWhereErfcReachesIntoTheSum) {
+  struct Case {
+    double x;
+    long precision;
+    bool erf, erfc;
+    const char* why;
+  };
+  for (const auto& [point, precision, erf, erfc, why] : {
+           Case{1.5, 53, true, true, "the least argument"},
+           Case{1.49, 53, false, false, "MPFR's Taylor series is short"},
+           Case{6, 53, true, true, "52 bits below 1, and 53 wanted"},
+           Case{7, 53, false, true, "1 - erfc(7) is 1 to 70 bits"},
+           Case{7, 145, true, true, "not to 145"},
+           Case{64, 828, false, true, "the greatest argument"},
+           Case{64.5, 828, false, false, "MPFR's asymptotic series serves"},
+           Case{-6, 53, true, true, "2 - erfc(6)"},
+           Case{-7, 53, false, false, "2 to 70 bits"},
+           Case{2, 6001, false, false, "no such precision"},
+       }) {
+    MpfrValue x(53);
+    mpfr_set_d(x, point, MPFR_RNDN);
+    EXPECT_EQ(oracle::rule_serves_erf(x, precision), erf) << point << ": " << why;
+    EXPECT_EQ(oracle::rule_serves_erfc(x, precision), erfc) << point << ": " << why;
   }
 }
 

@@ -8,16 +8,18 @@ namespace ulpgate {
 
 namespace {
 
-// Exponent of the spacing of the format at a value in binade e.
+// Exponent of the spacing of the format at a value in binade e.  Between 0 and the least normal number it is
+// the least positive number, whichever that is.
 long spacing_exponent(long e, const FloatFormat& f) {
-  return std::max(std::min(e, f.exponent_max), f.exponent_min) - (f.precision - 1);
+  if (e < f.exponent_min) return f.exponent_least();
+  return std::min(e, f.exponent_max) - (f.precision - 1);
 }
 
 double scaled_difference(mpfr_srcptr got, mpfr_srcptr exact, long exponent) {
   static thread_local MpfrValue difference(96);
-  mpfr_sub(difference, got, exact, MPFR_RNDN);
+  // Away from zero: an error that no double holds is still an error, and one above 1/2 ULP stays above it.
+  mpfr_sub(difference, got, exact, MPFR_RNDA);
   mpfr_mul_2si(difference, difference, -exponent, MPFR_RNDN);
-  // Away from zero: an error that no double holds is still an error.
   return std::fabs(mpfr_get_d(difference, MPFR_RNDA));
 }
 
@@ -58,7 +60,7 @@ Judgement judge_got_zero(mpfr_srcptr got, mpfr_srcptr exact, mpfr_srcptr rounded
     return {Outcome::finite, ulp_error(got, exact, f), 0, true};
   }
   const Ulp error = ulp_error(got, exact, f);
-  if (!f.subnormals || error.value > 1) return mismatch(Outcome::underflow_spurious);
+  if (error.value > 1) return mismatch(Outcome::underflow_spurious);
   if (sign_differs) return mismatch(Outcome::zero_sign);
   return {Outcome::finite, error, float_distance(got, rounded, f), false};
 }
@@ -67,8 +69,9 @@ Judgement judge_got_zero(mpfr_srcptr got, mpfr_srcptr exact, mpfr_srcptr rounded
 
 Ulp ulp_error(mpfr_srcptr got, mpfr_srcptr exact, const FloatFormat& format) {
   const WideExponentRange wide;
-  const long e = mpfr_regular_p(exact) ? binade(exact) : format.exponent_min;
-  return {scaled_difference(got, exact, spacing_exponent(e, format))};
+  const long spacing =
+      mpfr_regular_p(exact) ? spacing_exponent(binade(exact), format) : format.exponent_least();
+  return {scaled_difference(got, exact, spacing)};
 }
 
 double float_distance(mpfr_srcptr a, mpfr_srcptr b, const FloatFormat& format) {

@@ -36,15 +36,17 @@ inline constexpr std::size_t outcome_count = outcome_names.size();
 }
 
 // ULP: |got - exact| / ulp(exact), in units of the spacing of the format in the binade of the exact,
-// unrounded value; the spacing is never smaller than that of the least exponent (Muller et al., Handbook of
-// Floating-Point Arithmetic, 2nd ed., section 2.3.1; Goldberg's definition).  A strong type: a ULP is not a
-// double.
+// unrounded value; below the least normal number the spacing is the least positive number, subnormal where
+// the format has such (Muller et al., Handbook of Floating-Point Arithmetic, 2nd ed., section 2.3.1;
+// Goldberg's definition).  So a correctly rounded result is off by 1/2 ULP at most, in every format at every
+// value.  A strong type: a ULP is not a double.
 struct Ulp {
   double value = 0;
   friend auto operator<=>(const Ulp&, const Ulp&) = default;
 };
 
-// Both finite; got is a value of the format.  Relative error of the returned number: 2^-52.
+// Both finite; got is a value of the format.  Rounded up, by a relative 2^-51 at most: it is above 1/2 where
+// the error is.
 [[nodiscard]] Ulp ulp_error(mpfr_srcptr got, mpfr_srcptr exact, const FloatFormat& format);
 
 // Number of representable steps between two finite values of the format, +-0 being one value.  A format

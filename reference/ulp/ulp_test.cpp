@@ -68,6 +68,60 @@ TEST(Judge, FormatWithoutSubnormalsCannotFlush) {
   EXPECT_EQ(judge(zero, tiny, f).outcome, Outcome::underflow_spurious);
 }
 
+// 2^exponent_min is the least positive number here, and the step from it to 0.
+TEST(Judge, TheSpacingNextToZeroIsTheLeastNumber) {
+  struct Case {
+    double got, exact;  // in units of the least number
+    double ulp;
+    double distance;
+    bool nearest;
+    Outcome outcome = Outcome::finite;
+  };
+  constexpr double far = 0x1p-600;
+  for (const FloatFormat& f : {float_format<MpfrReal<62>>(), float_format<MpfrReal<150>>(),
+                               float_format<CppBinFloatReal<62>>(), float_format<double>()}) {
+    for (const auto& [got, exact, ulp, distance, nearest, outcome] : {
+             Case{0, 0.25, 0.25, 0, true},
+             Case{0, 0.5, 0.5, 0, true},
+             Case{1, 0.5, 0.5, 1, false},
+             Case{1, 0.75, 0.25, 0, true},
+             Case{0, 0.75, 0.75, 1, false},
+             Case{0, far, far, 0, true},
+             Case{1, far, 1, 1, false},
+             Case{0, -0.25, 0, 0, false, Outcome::zero_sign},
+             Case{-1, -0.75, 0.25, 0, true},
+             Case{-1, 0.75, 1.75, 2, false},
+         }) {
+      const WideExponentRange wide;
+      MpfrValue a(700), b(700);
+      mpfr_set_d(a, got, MPFR_RNDN);
+      mpfr_set_d(b, exact, MPFR_RNDN);
+      mpfr_mul_2si(a, a, f.exponent_least(), MPFR_RNDN);
+      mpfr_mul_2si(b, b, f.exponent_least(), MPFR_RNDN);
+      const Judgement j = judge(a, b, f);
+      EXPECT_EQ(name_of(j.outcome), name_of(outcome)) << got << " for " << exact;
+      if (outcome != Outcome::finite) continue;
+      EXPECT_EQ(j.error.value, ulp) << got << " for " << exact;
+      EXPECT_EQ(j.distance, distance) << got << " for " << exact;
+      EXPECT_EQ(j.correctly_rounded, nearest) << got << " for " << exact;
+    }
+  }
+}
+
+// Of two numbers beside a midpoint the farther one is off by more than half an ULP, however little.
+TEST(Judge, MoreThanHalfAnUlpIsMoreThanHalf) {
+  MpfrValue exact(400);
+  mpfr_set_ui_2exp(exact, 1, -53, MPFR_RNDN);
+  mpfr_add_ui(exact, exact, 1, MPFR_RNDN);
+  mpfr_nextabove(exact);
+  const Judgement down = judge(value("1"), exact, float_format<double>());
+  EXPECT_GT(down.error.value, 0.5);
+  EXPECT_FALSE(down.correctly_rounded);
+  const Judgement up = judge(value("0x1.0000000000001p+0"), exact, float_format<double>());
+  EXPECT_LE(up.error.value, 0.5);
+  EXPECT_TRUE(up.correctly_rounded);
+}
+
 TEST(FloatDistance, AgreesWithBoostWhereBoostIsDefined) {
   const double pairs[][2] = {{1, 2},
                              {1, std::nextafter(1.0, 0)},

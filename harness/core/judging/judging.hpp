@@ -30,10 +30,23 @@ struct Batch {
   }
 };
 
-// Whether the spacing of Real's numbers is twice as large above 2^power as below.
+// A reference that was rounded to a number of Real, or to a midpoint of two, hides on which side of it the
+// exact value lies: which binade's spacing counts at a power of two, and which number is the nearest at a
+// midpoint.  Where the rounding's direction is known, sets `beside` to a number on that side of `value`,
+// 2^-64 of value's last bit from it; false where there is nothing to tell or nothing known.
 template <RealType Real>
-[[nodiscard]] bool spacing_jumps_at(mpfr_exp_t power) {
-  return power > float_format<Real>().exponent_min && power <= float_format<Real>().exponent_max;
+[[nodiscard]] bool lean_to_exact(MpfrValue& beside, mpfr_srcptr value, Exactness exactness) {
+  if (exactness != Exactness::rounded_up && exactness != Exactness::rounded_down) return false;
+  if (mpfr_regular_p(value) == 0 || mpfr_min_prec(value) > float_format<Real>().precision + 1) return false;
+  const WideExponentRange wide;
+  mpfr_set_prec(beside, mpfr_get_prec(value) + 64);
+  mpfr_set(beside, value, MPFR_RNDN);
+  if (exactness == Exactness::rounded_up) {
+    mpfr_nextbelow(beside);
+  } else {
+    mpfr_nextabove(beside);
+  }
+  return true;
 }
 
 // Evaluates the exact value; what it promises is what exact_value promises.
@@ -100,14 +113,14 @@ class FullJudging {
   [[nodiscard]] Judgement judgement(const Batch<Real>& batch, std::size_t i, std::size_t part) {
     if (threw_) return exception_judgement;
     mpfr_srcptr got = point_.got(batch, i, part);
-    Judgement j = point_.judge(got, point_.exact(part));
-    if (lies_below_its_power(part)) j.error.value *= 2;
+    mpfr_srcptr exact = point_.exact(part);
+    const Exactness exactness = point_.exactness(part);
+    const bool leans = lean_to_exact<Real>(beside_, exact, exactness);
+    Judgement j = point_.judge(got, leans ? static_cast<mpfr_srcptr>(beside_) : exact);
     // A result equal to a rounded reference is wrong by less than the reference can say, but wrong.  So is a
     // zero where the exact value has left even MPFR's range.
-    if (is_rounded(point_.exactness(part)) && mpfr_number_p(got) != 0 &&
-        mpfr_equal_p(got, point_.exact(part)) != 0) {
+    if (is_rounded(exactness) && mpfr_number_p(got) != 0 && mpfr_equal_p(got, exact) != 0)
       j.error.value = smallest_error;
-    }
     return j;
   }
   [[nodiscard]] long double value(std::size_t part) const { return threw_ ? 0 : point_.value(part); }
@@ -133,16 +146,8 @@ class FullJudging {
   }
 
  private:
-  // A power of two that was rounded away from zero stands for a number of the binade below.
-  [[nodiscard]] bool lies_below_its_power(std::size_t part) {
-    mpfr_srcptr exact = point_.exact(part);
-    if (mpfr_regular_p(exact) == 0) return false;
-    const Exactness away = mpfr_sgn(exact) > 0 ? Exactness::rounded_up : Exactness::rounded_down;
-    return point_.exactness(part) == away && mpfr_min_prec(exact) == 1 &&
-           spacing_jumps_at<Real>(mpfr_get_exp(exact) - 1);
-  }
-
   PointJudge<Real> point_;
+  MpfrValue beside_;
   bool threw_ = false;
 };
 

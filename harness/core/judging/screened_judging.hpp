@@ -227,32 +227,32 @@ class ScreenedJudging {
     }
     // An inexact zero or infinity has left even MPFR's range.
     if (!mpfr_regular_p(value)) return false;
+    const bool equal = is_rounded(exactness) && mpfr_equal_p(got, value) != 0;
+    const bool leans = lean_to_exact<Real>(beside_, value, exactness);
     mpfr_set_prec(upper_, mpfr_get_prec(value));
     mpfr_set(upper_, value, MPFR_RNDN);
-    const bool equal = is_rounded(exactness) && mpfr_equal_p(got, value) != 0;
     if (exactness != Exactness::rounded_up) mpfr_nextabove(upper_);
     if (exactness != Exactness::rounded_down) mpfr_nextbelow(value);
-    Judgement a = stage_.judge(got, value);
-    Judgement b = stage_.judge(got, upper_);
+    mpfr_srcptr low = leans && exactness == Exactness::rounded_down ? beside_.get() : value;
+    mpfr_srcptr high = leans && exactness == Exactness::rounded_up ? beside_.get() : upper_.get();
+    const Judgement a = stage_.judge(got, low);
+    const Judgement b = stage_.judge(got, high);
     if (a.outcome != b.outcome) return false;
     finding = finding_of(a);
     if (a.outcome != Outcome::finite) return true;
     if (a.correctly_rounded != b.correctly_rounded) return false;
     // Within the interval the error may be anything down to an exact zero, unless that is known not to be.
-    const bool inside = mpfr_lessequal_p(value, got) && mpfr_lessequal_p(got, upper_);
+    const bool inside = mpfr_lessequal_p(low, got) && mpfr_lessequal_p(got, high);
     if (inside && !equal) return false;
-    // At a power of two the spacing jumps, and the error with it.
-    const mpfr_exp_t low = mpfr_get_exp(static_cast<mpfr_srcptr>(value));
-    const mpfr_exp_t high = mpfr_get_exp(upper_.get());
-    const bool jump = low != high;
-    const bool one_side = exactness == Exactness::rounded_up || exactness == Exactness::rounded_down;
-    // The interval ends there, or all of it would lie on both sides; the end takes the spacing of the inside.
-    const bool at_end = jump && one_side && spacing_jumps_at<Real>(std::max(low, high) - 1);
-    if (at_end) (low > high ? a : b).error.value *= 2;
     constexpr double margin = 0x1p-50;
     finding.least = equal ? smallest_error : std::min(a.error, b.error).value * (1 - margin);
     finding.greatest = std::max(a.error, b.error).value * (1 + margin);
-    if (jump && !at_end) {
+    // At a power of two the spacing jumps, and the error with it: by 2, but next to the least number of a
+    // format without subnormals.
+    const mpfr_exp_t top = std::max(mpfr_get_exp(low), mpfr_get_exp(high));
+    if (mpfr_get_exp(low) != mpfr_get_exp(high)) {
+      constexpr FloatFormat format = float_format<Real>();
+      if (!format.subnormals && top - 1 == format.exponent_min) return false;
       if (!equal) finding.least /= 2;
       finding.greatest *= 2;
     }
@@ -287,6 +287,7 @@ class ScreenedJudging {
   PointJudge<Real> stage_;
   FullJudging<Real> full_;
   MpfrValue upper_;
+  MpfrValue beside_;
   std::vector<std::size_t> pending_;
   std::vector<Real> gathered_;
   std::vector<std::uint8_t> verdicts_;  // of the batch's samples, by a scan

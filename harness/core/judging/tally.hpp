@@ -48,8 +48,7 @@ class Tally {
       if (could_raise_maximum(f, k) && !f.error_known()) return Need::better;
     }
     if (!f.distance_known && f.distance > summary_.max_distance) return Need::better;
-    if (f.greatest > 0.5 && f.greatest >= ratio_seen &&
-        f.greatest >= ratio_seen * (1 - 0x1p-38) * condition_bound()) {
+    if (f.greatest > 0.5 && could_raise_ratio(f.greatest, ratio_seen, condition_bound)) {
       return f.error_known() ? Need::condition : Need::better;
     }
     return Need::nothing;
@@ -81,6 +80,15 @@ class Tally {
   // Whether an error may be as large as a recorded one: rounding up to 40 bits adds less than this.
   [[nodiscard]] static bool reaches(double error, double recorded_error) {
     return error * (1 + 0x1p-38) + 0x1p-39 >= recorded_error;
+  }
+  // What is divided by the condition number is the recorded error, so that is what must reach the ratio: two
+  // errors that are recorded as one are told apart by their condition numbers, whichever comes first.
+  template <class ConditionBound>
+  [[nodiscard]] static bool could_raise_ratio(double error, double ratio_seen,
+                                              ConditionBound& condition_bound) {
+    if (!reaches(error, ratio_seen)) return false;
+    const double recorded_error = recorded({error}).value;
+    return recorded_error > ratio_seen && recorded_error >= ratio_seen * (1 - 0x1p-38) * condition_bound();
   }
   [[nodiscard]] static bool same_bucket(const Finding& f, std::uint64_t k) {
     const int bucket = UlpHistogram::bucket({f.least});
