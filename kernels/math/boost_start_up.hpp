@@ -7,9 +7,9 @@
 
 // Boost.Math evaluates zeta once for every type before main, so that its static tables are there before
 // threads start.  These Boosts keep a table for each thread, so that its first use is safe, and zeta(5) with
-// 600 digits takes a tenth of a second in every process, even in one that prints its version.  Only the Boosts
-// whose text was seen to be the same (1.81, 1.83, 1.88) and those between are told so; any other starts slowly,
-// with the same results.
+// 600 digits takes a tenth of a second in every process, even in one that prints its version.  Only the
+// Boosts whose text was seen to be the same (1.81, 1.83, 1.88) and those between are told so; any other
+// starts slowly, with the same results.
 #if BOOST_VERSION >= 108100 && BOOST_VERSION < 108900
 namespace boost::math::detail {
 

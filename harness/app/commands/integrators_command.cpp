@@ -1,155 +1,104 @@
-// ulpgate integrators: the order of every integrator, measured on exactly solved problems, and its energy
+// ulpgate integrators: the order of every integrator, measured on exactly solved problems, or its energy
 // drift.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <thread>
 
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/orders/order_output.hpp"
 #include "harness/app/shell/files.hpp"
-#include "harness/app/shell/interrupt.hpp"
-#include "harness/app/shell/progress.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
-#include "harness/core/arguments/random_words.hpp"
-#include "harness/core/orders/order_engine.hpp"
-#include "kernels/ode/integrators/integrators.hpp"
 
 namespace ulpgate::app {
 
 namespace {
 
-struct IntegratorOptions {
-  std::string integrators = "all";
-  std::string types = "double";
-  std::string problems = "all";
-  long most_steps = 2048;
-  long drift_units = 0;
-  long steps_per_unit = 64;
-  double tolerance = 0.25;
-  std::string out;
-  bool json = false;
-};
+constexpr const char* orders_file = "orders.jsonl";
+constexpr const char* drift_file = "drift.jsonl";
+const std::string whole = Shard().text();
 
-std::vector<std::string> names_of_integrators() {
-  std::vector<std::string> names;
-  for (const auto& i : ode::integrators()) names.push_back(i.name);
-  return names;
+// What a finished run comes to.
+ExitCode report(const OrderVerdicts& verdicts, const OrderOptions& o) {
+  for (const auto& line : verdicts.wrong) fmt::print(o.json ? stderr : stdout, "FAIL {}\n", line);
+  for (const auto& line : verdicts.refused) fmt::print(stderr, "ulpgate: not measured: {}\n", line);
+  if (!verdicts.wrong.empty()) return ExitCode::regression;
+  if (!verdicts.refused.empty()) return ExitCode::incomplete;
+  if (verdicts.judged > 0) return ExitCode::pass;
+  throw Failure(ExitCode::incomplete,
+                "nothing measured: no integrator with an order of its own has six rungs that begin above the "
+                "floor of rounding; more --most-steps or a type of more digits give them");
 }
 
-std::vector<std::string> chosen(const std::string& text, const std::string& what,
-                                const std::vector<std::string>& known) {
-  if (text == "all") return known;
-  const auto names = split(text, ',');
-  for (const auto& name : names) {
-    if (std::ranges::find(known, name) == known.end()) unknown_name(what, name, known);
-  }
-  return names;
+// The lines of what is complete, in the order of the plan.
+std::string all_records(const OrderJob& job, const OrderOptions& o) {
+  std::string text;
+  for (std::size_t i = 0; i < job.rows.size(); ++i)
+    if (job.measurements[i]->complete()) text += record_lines(job.rows[i], o);
+  return text;
 }
 
-Json number_or_null(const std::optional<double>& x) {
-  return x ? Json(*x) : Json(nullptr);
+void print_table(const OrderJob& job, const OrderOptions& o) {
+  for (std::size_t i = 0; i < job.rows.size(); ++i)
+    if (job.measurements[i]->complete()) fmt::print("{}", table_line(job.rows[i], o));
 }
 
-struct Outcome {
-  std::string text;  // lines of orders.jsonl
-  std::vector<std::string> wrong;
-};
-
-void measure_order(const OrderEngine& engine, const ode::IntegratorInfo& info, const std::string& problem,
-                   const IntegratorOptions& o, Outcome& outcome) {
-  const OrderLadder ladder = engine.ladder(info.name, problem, o.most_steps);
-  for (const auto& rung : ladder.rungs) {
-    // A method that chooses its order has none to be held against.
-    if (!info.order) break;
-    const Json j = {{"what", "order"},      {"integrator", info.name},
-                    {"order", *info.order}, {"type", engine.token()},
-                    {"problem", problem},   {"t_end", ladder.t_end},
-                    {"dt", rung.dt},        {"steps", rung.steps},
-                    {"error", rung.error},  {"measured_order", number_or_null(rung.order)}};
-    outcome.text += j.dump() + "\n";
-  }
-  double least = HUGE_VAL;
-  for (const auto& rung : ladder.rungs) least = std::min(least, rung.error);
-  const std::string measured =
-      ladder.measured_order ? fmt::format("{:.3f}", *ladder.measured_order) : "at the floor at once";
-  if (!o.json) {
-    fmt::print(
-        "{:<20} {:<16} {:<12} order {:>5}  measured {:<20}  least error {:.2e} at {} steps on t = {:.2g}\n",
-        info.name, engine.token(), problem, info.order ? std::to_string(*info.order) : "free", measured,
-        least, ladder.rungs.back().steps, ladder.t_end);
-  }
-  // Only an order that is too low is wrong: symmetry may give more.  With few rungs above the floor it is not
-  // yet asymptotic, and nothing is judged.
-  if (info.order && ladder.measured_order && ladder.rungs.size() >= 6 &&
-      *ladder.measured_order < *info.order - std::max(o.tolerance, 0.05 * *info.order))
-    outcome.wrong.push_back(fmt::format("{} {} {}: order {:.3f} measured, {} expected", info.name,
-                                        engine.token(), problem, *ladder.measured_order, *info.order));
+ExitCode look_again(const std::filesystem::path& out, const char* records, const OrderOptions& o) {
+  fmt::print(stderr, "ulpgate: {} is complete already\n", out.string());
+  const auto context = out / "context.json";
+  const Json j = Json::parse(read_file(context), nullptr, false);
+  const auto verdicts =
+      verdicts_from_json(j.is_object() ? j.value("verdicts", Json()) : Json(), context.string());
+  if (o.json) fmt::print("{}", read_file(out / records));
+  return report(verdicts, o);
 }
 
-void measure_drift(const OrderEngine& engine, const ode::IntegratorInfo& info, const std::string& problem,
-                   const IntegratorOptions& o, Outcome& outcome) {
-  const EnergyDrift drift = engine.drift(info.name, problem, o.steps_per_unit, o.drift_units);
-  const Json j = {{"what", "drift"},
-                  {"integrator", info.name},
-                  {"type", engine.token()},
-                  {"problem", problem},
-                  {"dt", 1.0 / static_cast<double>(o.steps_per_unit)},
-                  {"t_end", o.drift_units},
-                  {"max_energy_error", drift.largest()},
-                  {"energy_slope", number_or_null(drift.slope())}};
-  outcome.text += j.dump() + "\n";
-  if (!o.json) {
-    fmt::print("{:<20} {:<16} {:<12} largest energy error {:.3e} over {} units of {} steps, slope {}\n",
-               info.name, engine.token(), problem, drift.largest(), o.drift_units, o.steps_per_unit,
-               drift.slope() ? fmt::format("{:.2f}", *drift.slope()) : "-");
-  }
-}
-
-ExitCode run_integrators(const IntegratorOptions& o) {
-  const auto types = select_types(o.types);
-  const auto integrators = chosen(o.integrators, "integrator", names_of_integrators());
-  const InterruptGuard guard;
-  Outcome outcome;
-  Progress progress("integrators");
-  double done = 0;
-  const double all = static_cast<double>(types.size() * integrators.size());
-  for (const auto& token : types) {
-    const OrderEngine& engine = *find_order_engine(token);
-    const auto problems = chosen(o.problems, "problem", engine.problems());
-    for (const auto& name : integrators) {
-      const auto& info = ode::find_integrator(name);
-      for (const auto& problem : problems) {
-        if (interrupted()) throw Failure(ExitCode::incomplete, "interrupted; nothing is written");
-        if (!engine.applies(name, problem)) continue;
-        if (o.drift_units != 0) {
-          measure_drift(engine, info, problem, o, outcome);
-        } else {
-          measure_order(engine, info, problem, o, outcome);
-        }
-      }
-      // Minutes may pass until the next line.
-      std::fflush(stdout);
-      progress.update(++done, all);
-    }
-  }
-  if (outcome.text.empty())
-    throw Failure(ExitCode::incomplete,
-                  "no integrator applies to the problem: splitting methods need q'' = a(q)");
-  if (o.json) fmt::print("{}", outcome.text);
+ExitCode run_integrators(const OrderOptions& o) {
+  if (o.out.empty() && (o.resume || o.overwrite))
+    throw Failure(ExitCode::bad_input, "--resume and --overwrite need --out DIR");
+  const OrderJob job = make_order_job(o);
+  const std::filesystem::path out = o.out;
+  const char* records = o.drift_units != 0 ? drift_file : orders_file;
+  const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
+  std::unique_ptr<PieceLog> log;
   if (!o.out.empty()) {
-    make_directory(o.out);
-    const std::filesystem::path out = o.out;
-    const std::string plan =
-        fmt::format("ulpgate integrators plan\nintegrators {}\nproblems {}\nmost_steps {}\ndrift {} {}\n",
-                    o.integrators, o.problems, o.most_steps, o.drift_units, o.steps_per_unit);
-    write_file(out / (o.drift_units != 0 ? "drift.jsonl" : "orders.jsonl"), outcome.text);
-    const Json context = make_scene_context(fmt::format("{:016x}", fnv1a(plan)), plan, types, 1, true);
-    write_file(out / "context.json", context.dump(2) + "\n");
+    make_directory(out);
+    if (o.resume && is_finished(out, job.plan, whole)) return look_again(out, records, o);
+    guard_output(out, job.plan, o.overwrite);
+    log = std::make_unique<PieceLog>(out, RunIdentity{"integrators", job.plan, whole, machine_facts()},
+                                     partial_run(o.resume, o.overwrite));
+    // Those of another plan must not stand beside the new context.
+    if (o.overwrite)
+      for (const auto* file : {orders_file, drift_file}) std::filesystem::remove(out / file);
   }
-  for (const auto& line : outcome.wrong) fmt::print("FAIL {}\n", line);
-  return outcome.wrong.empty() ? ExitCode::pass : ExitCode::regression;
+  const bool complete = run_measurements({"integrators", job.measurements, job.costs}, threads, log.get());
+  const std::string text = all_records(job, o);
+  const OrderVerdicts verdicts = complete ? judge_rows(job, o) : OrderVerdicts();
+  if (log) {
+    write_file(out / records, text);
+    Json context = make_scene_context(job.plan, job.plan_text, job.types, threads, complete);
+    context["shards"] = {whole};
+    context["verdicts"] = to_json(verdicts);
+    write_context(out, context, complete);
+    if (complete) log->remove();
+  }
+  if (o.json) {
+    fmt::print("{}", text);
+  } else {
+    print_table(job, o);
+  }
+  if (complete) return report(verdicts, o);
+  throw Failure(ExitCode::incomplete,
+                log ? fmt::format("interrupted; what was done is in {}; --resume goes on", out.string())
+                    : "interrupted; without --out nothing is kept");
+}
+
+std::string finite_and_not_negative(const std::string& text) {
+  double x = 0;
+  const bool good = CLI::detail::lexical_cast(text, x) && std::isfinite(x) && x >= 0;
+  return good ? "" : "'" + text + "' is no finite number from 0 on";
 }
 
 }  // namespace
@@ -157,7 +106,7 @@ ExitCode run_integrators(const IntegratorOptions& o) {
 void add_integrators_command(CLI::App& app, Action& action) {
   auto* verb = app.add_subcommand(
       "integrators", "Measure the order or the energy drift of integrators on exactly solved problems");
-  auto o = std::make_shared<IntegratorOptions>();
+  auto o = std::make_shared<OrderOptions>();
   verb->add_option("--integrators", o->integrators, "all or names (`ulpgate list integrators`)")
       ->capture_default_str();
   verb->add_option("--type,--types", o->types, "all or tokens, comma-separated")->capture_default_str();
@@ -168,7 +117,7 @@ void add_integrators_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(8L, 1L << 24));
   verb->add_option("--tolerance", o->tolerance, "an order lower by more, and by 5 %, is a failure")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Validator(finite_and_not_negative, "NUMBER"));
   verb->add_option("--drift", o->drift_units,
                    "measure the energy error along that many units of time instead")
       ->check(CLI::Range(1L, 1L << 40));
@@ -176,7 +125,14 @@ void add_integrators_command(CLI::App& app, Action& action) {
                    "with --drift: steps in a unit of time; a power of two keeps the step exact")
       ->capture_default_str()
       ->check(CLI::Range(1L, 1L << 30));
+  verb->add_option("--threads", o->threads, "threads, 0: one a core; any number gives the same bytes")
+      ->capture_default_str()
+      ->check(CLI::Range(0U, 4096U));
   verb->add_option("--out", o->out, "directory of orders.jsonl (drift.jsonl) and context.json");
+  auto* resume = verb->add_flag("--resume", o->resume,
+                                "go on with a run that was interrupted or killed; a new one starts");
+  verb->add_flag("--overwrite", o->overwrite, "write over the records of another plan, or a partial run")
+      ->excludes(resume);
   verb->add_flag("--json", o->json, "print the records");
   verb->callback([=, &action] { action = [=] { return run_integrators(*o); }; });
 }

@@ -39,7 +39,9 @@ int main(int argc, char** argv) {
   try {
     assert_floating_point_environment();
     const ExitCode code = action();
-    if (std::fflush(stdout) != 0) throw Failure(ExitCode::environment, "cannot write to standard output");
+    // What was written before has left its mark where it failed.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw Failure(ExitCode::environment, "cannot write to standard output");
     return static_cast<int>(code);
   } catch (const Failure& e) {
     fmt::print(stderr, "ulpgate: {}\n", e.what());

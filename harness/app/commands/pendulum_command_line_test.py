@@ -1,4 +1,4 @@
-"""Tests of the pendulum suite through the program: records, checkpoints, correlation, its gate, integrators."""
+"""Tests of the pendulum suite through the program: records, checkpoints, correlation, its gate."""
 
 import csv
 import json
@@ -250,37 +250,3 @@ def test_a_setup_made_in_float_has_the_published_energy_error(tmp_path, dt, publ
 def test_correlation_needs_a_chain(tmp_path):
     code, _, err = run("scene", "correlate", "collision", "--out", tmp_path)
     assert code == 2 and "chain" in err or "record_every" in err
-
-
-def test_integrators_show_their_orders(tmp_path):
-    code, out, err = run(
-        "integrators",
-        "--types",
-        "double",
-        "--problems",
-        "kepler,rigid_body",
-        "--out",
-        tmp_path,
-    )
-    assert code == 0, out + err
-    rows = [json.loads(x) for x in (tmp_path / "orders.jsonl").read_text().splitlines()]
-    listed = json.loads(run("list", "integrators", "--json")[1])
-    names = {i["integrator"] for i in listed if i["order"] is not None}
-    assert {r["integrator"] for r in rows} == names
-    assert {r["problem"] for r in rows if r["integrator"] == "yoshida8"} == {"kepler"}
-    code, _, err = run("integrators", "--integrators", "yoshida7")
-    assert code == 2 and "yoshida6" in err
-    code, _, err = run(
-        "integrators", "--integrators", "pefrl", "--problems", "rigid_body"
-    )
-    assert code == 3 and "q''" in err
-    code, out, _ = run(
-        "integrators",
-        "--integrators",
-        "leapfrog",
-        "--problems",
-        "kepler",
-        "--drift",
-        256,
-    )
-    assert code == 0 and "slope" in out

@@ -20,12 +20,12 @@ class AppendFile {
   [[nodiscard]] bool is_open() const { return file_ >= 0; }
   // Kept in memory until some of it has come together.
   void append(const std::string& text);
+  // With the operating system: the end of this process loses nothing of it.
+  void flush();
   // On disk; returns the length of the file.
   std::uint64_t sync();
 
  private:
-  void flush();
-
   int file_ = -1;
   std::filesystem::path path_;
   std::string waiting_;

@@ -1,7 +1,6 @@
 // Interrupt.
 #include "harness/app/shell/interrupt.hpp"
 
-#include <atomic>
 #include <csignal>
 
 namespace ulpgate::app {
@@ -15,6 +14,14 @@ void on_interrupt(int) {
 
 bool interrupted() {
   return flag.load(std::memory_order_relaxed);
+}
+
+const std::atomic<bool>& interrupt_flag() {
+  return flag;
+}
+
+void interrupt() {
+  flag.store(true, std::memory_order_relaxed);
 }
 
 InterruptGuard::InterruptGuard()

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/core/orders/measurement.hpp"
 #include "harness/core/scenes/energy_drift.hpp"
 #include "kernels/dem/engine/engine.hpp"
 
@@ -28,6 +29,16 @@ struct OrderLadder {
   std::optional<double> measured_order;
 };
 
+class LadderMeasurement : public Measurement {
+ public:
+  [[nodiscard]] virtual const OrderLadder& ladder() const = 0;
+};
+
+class DriftMeasurement : public Measurement {
+ public:
+  [[nodiscard]] virtual const EnergyDrift& drift() const = 0;
+};
+
 class OrderEngine {
  public:
   OrderEngine() = default;
@@ -44,16 +55,18 @@ class OrderEngine {
   // Steps double from one until the error has met the floor of rounding on two rungs or `most_steps` is
   // reached.  The interval is 1, or so much shorter that about `most_steps` steps lead to the floor: a method
   // of order p errs by some t^(p+1)/n^p.
-  [[nodiscard]] virtual OrderLadder ladder(std::string_view integrator, std::string_view problem,
-                                           long most_steps) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<LadderMeasurement> ladder(std::string_view integrator,
+                                                                  std::string_view problem,
+                                                                  long most_steps) const = 0;
 
   // The kicks and drifts of a splitting method at RealHP<4>, so that they round once to the type and to its
   // reference.  Throws std::invalid_argument for a method of another kind.
   [[nodiscard]] virtual std::vector<dem::FlowText> flow(std::string_view integrator) const = 0;
 
   // Energy error along `units` units of time at `steps_per_unit` (a power of two, so that the step is exact).
-  [[nodiscard]] virtual EnergyDrift drift(std::string_view integrator, std::string_view problem,
-                                          long steps_per_unit, long units) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<DriftMeasurement> drift(std::string_view integrator,
+                                                                std::string_view problem, long steps_per_unit,
+                                                                long units) const = 0;
 };
 
 // Null where `token` was not built in.

@@ -21,6 +21,8 @@ class CostModel {
 
   // `points` points of the row are done and took `seconds` of one thread.
   void add(std::size_t row, std::uint64_t points, double seconds);
+  // The rest of the row turns out to need no evaluation.
+  void drop(std::size_t row) { rows_[row].points = 0; }
   // A trial of a few points of the row, which are still to be done.
   void add_trial(std::size_t row, std::uint64_t points, double seconds);
 

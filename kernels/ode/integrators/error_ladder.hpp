@@ -23,8 +23,8 @@ template <RealType Real>
 // Largest component of the error at time t after `steps` equal steps.
 template <RealType Real>
 [[nodiscard]] Real error_at(std::string_view name, const SolvedProblem<Real>& solved, const Real& t,
-                            long steps) {
-  return largest_difference<Real>(integrate<Real>(name, solved.problem, t, steps), solved.exact(t));
+                            long steps, const StopFlag& stop = {}) {
+  return largest_difference<Real>(integrate<Real>(name, solved.problem, t, steps, stop), solved.exact(t));
 }
 
 struct Rung {

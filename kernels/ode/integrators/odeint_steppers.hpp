@@ -85,6 +85,7 @@ class BulirschStoerStepper final : public Stepper<Real> {
     const Real end = now + sign * h;
     Real step = proposed_ == 0 ? Real(sign * h) : proposed_;
     for (int trial = 0; trial < 1'000'000; ++trial) {
+      this->stop().check();
       const bool last = step >= end - now;
       // What is left is shorter than the proposal: take it, and remember the proposal for the next call.
       if (last) {
@@ -94,11 +95,28 @@ class BulirschStoerStepper final : public Stepper<Real> {
       const Real tried = step;
       const bool accepted =
           method_.try_step(system, this->state_to_advance(), now, step) == boost::numeric::odeint::success;
+      last_ = step;
       if (accepted && last) return;
       // After two rejections odeint may propose the same step for ever.
       if (!accepted && !(step < tried)) step = tried / 2;
     }
     throw std::runtime_error("Bulirsch-Stoer: a million trials did not reach the end of the step");
+  }
+
+  // The method forgets everything when it is given another step size than it proposed last, as it nearly
+  // always is at the start of a call: the proposal from before the call's end was cut to what was left.
+  [[nodiscard]] std::optional<std::vector<Real>> memory() const override {
+    if (proposed_ == last_ && proposed_ != 0) return std::nullopt;
+    return std::vector<Real>{proposed_};
+  }
+
+ protected:
+  [[nodiscard]] bool remember(const std::vector<Real>& memory) override {
+    if (memory.size() != 1) return false;
+    proposed_ = memory[0];
+    last_ = Real(0);
+    method_.reset();
+    return true;
   }
 
  private:
@@ -107,6 +125,7 @@ class BulirschStoerStepper final : public Stepper<Real> {
   boost::numeric::odeint::bulirsch_stoer<std::vector<Real>, Real, std::vector<Real>, Real, RangeAlgebra<Real>>
       method_;
   Real proposed_{0};
+  Real last_{0};  // what the method proposed last
 };
 
 }  // namespace ulpgate::ode

@@ -29,6 +29,13 @@ class SplittingStepper final : public Stepper<Real> {
     }
   }
 
+ protected:
+  [[nodiscard]] bool remember(const std::vector<Real>& memory) override {
+    // a(q) is computed again, with the bits it had.
+    a_is_current_ = false;
+    return memory.empty();
+  }
+
  private:
   std::vector<Substep<Real>> sequence_;
   std::vector<Real> a_;

@@ -1,0 +1,145 @@
+// PieceLog.
+#include "harness/app/store/piece_log.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+#include <charconv>
+
+#include "harness/app/shell/failure.hpp"
+#include "harness/app/shell/files.hpp"
+#include "harness/app/store/checkpoint_text.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+constexpr const char* log_file = "log.txt";
+// Of a Checkpoint; another verb's partial run may be here.
+constexpr const char* done_file = "done.txt";
+// What a power failure may lose, beyond what a killed process may.
+constexpr auto sync_interval = std::chrono::seconds(5);
+
+std::string line_of(const PieceLog::Piece& piece) {
+  return with_checksum(fmt::format("p {} {:x} {}", piece.measurement,
+                                   std::bit_cast<std::uint64_t>(piece.seconds), piece.text));
+}
+
+std::optional<PieceLog::Piece> piece_of(const std::string& payload) {
+  PieceLog::Piece piece;
+  std::uint64_t bits = 0;
+  const char* at = payload.data();
+  const char* const end = at + payload.size();
+  if (!payload.starts_with("p ")) return std::nullopt;
+  const auto number = std::from_chars(at + 2, end, piece.measurement);
+  if (number.ec != std::errc() || number.ptr == end || *number.ptr != ' ') return std::nullopt;
+  const auto seconds = std::from_chars(number.ptr + 1, end, bits, 16);
+  if (seconds.ec != std::errc() || seconds.ptr == end || *seconds.ptr != ' ') return std::nullopt;
+  piece.seconds = std::bit_cast<double>(bits);
+  piece.text.assign(seconds.ptr + 1, end);
+  return piece;
+}
+
+}  // namespace
+
+PieceLog::PieceLog(const std::filesystem::path& out, const RunIdentity& identity, PartialRun policy)
+    : directory_(out / "units"),
+      header_(with_checksum("h " + identity_text(identity))),
+      synced_(std::chrono::steady_clock::now()) {
+  const bool partial =
+      std::filesystem::exists(directory_ / done_file) || std::filesystem::exists(directory_ / log_file);
+  if (partial && policy == PartialRun::refuse) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{} holds a partial run: go on with --resume, or start anew with --overwrite",
+                              out.string()));
+  }
+  make_directory(directory_);
+  lock_ = ::open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(lock_);
+    throw Failure(ExitCode::bad_input, fmt::format("another process works in {}", out.string()));
+  }
+  if (policy == PartialRun::resume) {
+    refuse_others(identity);
+  } else {
+    for (const auto* name : {done_file, log_file}) std::filesystem::remove(directory_ / name);
+  }
+}
+
+PieceLog::~PieceLog() {
+  if (lock_ >= 0) ::close(lock_);
+  // A run that failed before its first piece leaves nothing behind.
+  std::error_code code;
+  std::filesystem::remove(directory_, code);
+}
+
+void PieceLog::refuse_others(const RunIdentity& identity) const {
+  for (const auto* name : {done_file, log_file}) {
+    const auto file = directory_ / name;
+    if (!std::filesystem::exists(file)) continue;
+    const auto lines = checked_lines(read_file(file));
+    // Without its header none of the file is taken.
+    if (lines.empty() || !lines.front().payload) continue;
+    const std::string& there = *lines.front().payload;
+    const auto other = identity_difference(there.starts_with("h ") ? there.substr(2) : "", identity);
+    if (!other) continue;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: a partial run with another {}: {}; give the options of that run, another "
+                              "--out, or --overwrite",
+                              file.string(), other->starts_with("plan ") ? "plan" : "setting", *other));
+  }
+}
+
+void PieceLog::restore(const std::function<bool(const Piece&)>& take) {
+  const auto file = directory_ / log_file;
+  std::string text = header_;
+  if (std::filesystem::exists(file)) {
+    const auto lines = checked_lines(read_file(file));
+    const bool has_header = !lines.empty() && lines.front().payload;
+    std::size_t lost = has_header || lines.empty() ? 0 : lines.size();
+    std::size_t first_lost = 1;
+    for (std::size_t i = 1; has_header && i < lines.size(); ++i) {
+      const auto piece = lines[i].payload ? piece_of(*lines[i].payload) : std::nullopt;
+      if (piece && take(*piece)) {
+        text += line_of(*piece);
+      } else if (lost++ == 0) {
+        first_lost = i + 1;
+      }
+    }
+    if (lost > 0) {
+      fmt::print(stderr, "ulpgate: note: {}:{}: {} damaged or torn line{}; what they held is done again\n",
+                 file.string(), first_lost, lost, lost == 1 ? "" : "s");
+    }
+  }
+  write_file(file, text);
+  log_.open(file, text.size());
+}
+
+void PieceLog::append(const Piece& piece) {
+  try {
+    log_.append(line_of(piece));
+    log_.flush();
+    const auto now = std::chrono::steady_clock::now();
+    if (now - synced_ < sync_interval) return;
+    synced_ = now;
+    log_.sync();
+  } catch (const Failure& e) {
+    throw Failure(e.code(),
+                  fmt::format("{}; what was finished before is kept: go on with --resume", e.what()));
+  }
+}
+
+void PieceLog::remove() {
+  std::error_code code;
+  std::filesystem::remove_all(directory_, code);
+  if (code) {
+    throw Failure(ExitCode::environment,
+                  fmt::format("cannot remove {}: {}", directory_.string(), code.message()));
+  }
+}
+
+}  // namespace ulpgate::app
