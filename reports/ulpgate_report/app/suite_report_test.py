@@ -1,10 +1,12 @@
 """Tests of the report of a whole suite: the page, what is left out and said, nothing stale."""
 import json
 import shutil
+import sys
 
 import pytest
 
 from ulpgate_report.app import cli
+from ulpgate_report.pendulum import kind
 from ulpgate_report.records import reading
 from ulpgate_report.testing import sample_pendulum, sample_records
 from ulpgate_report.testing.page_check import References
@@ -49,8 +51,9 @@ def test_what_is_left_out_is_said(suite_directory, tmp_path, capsys):
 
 
 def test_whole_report(suite_directory, tmp_path):
-    # A second step would draw the same once more.
+    # A second step would draw the same once more, a second type of the orders another panel.
     shutil.rmtree(suite_directory / "dt_1e-6")
+    sample_pendulum.write_orders(suite_directory / "orders", tokens=("double",))
     out, again = tmp_path / "out", tmp_path / "again"
     assert cli.main([str(suite_directory), "--out", str(out)]) == 0
     page = (out / "index.html").read_text("utf-8")
@@ -69,6 +72,10 @@ def test_whole_report(suite_directory, tmp_path):
         if path.is_file():
             same = (again / path.relative_to(out)).read_bytes()
             assert path.read_bytes() == same, path.name
+    figures = [path.name for path in (out / "figures").glob("*.svg")]
+    for draw in kind.FIGURES:
+        family = sys.modules[draw.__module__].FAMILY
+        assert any(name.startswith(f"{family}_") for name in figures), family
     # A report of the integrators alone leaves nothing of the pendulum behind.
     assert cli.main([str(suite_directory / "orders"), "--out", str(out)]) == 0
     names = {path.name.split(".")[0] for path in out.rglob("*") if path.is_file()}

@@ -64,12 +64,12 @@ def marker(index):
     return _MARKERS[index % len(_MARKERS)]
 
 
-def render(figure, name):
-    """The bytes of the figure by suffix; the figure is closed."""
+def render(figure, name, suffixes=SUFFIXES):
+    """The bytes of the figure by each of `suffixes`; the figure is closed."""
     # The salt makes the ids inside an SVG fixed, and different from those of another figure on the same page.
     matplotlib.rcParams["svg.hashsalt"] = name
     files = {}
-    for suffix in SUFFIXES:
+    for suffix in suffixes:
         buffer = io.BytesIO()
         figure.savefig(
             buffer,

@@ -123,13 +123,10 @@ def hard_values(record):
             record.update(dict.fromkeys(names, value))
 
 
-@pytest.mark.parametrize("change", [lambda record: None, hard_values])
 @pytest.mark.parametrize("draw", kind.FIGURES)
-def test_figures_have_the_same_bytes_twice(draw, change):
-    run = combined_run(change)
-    name, caption, figure = draw(run)
-    first = figure_style.render(figure, name)
-    assert first == figure_style.render(draw(run)[2], name)
+def test_hard_values_are_drawn(draw):
+    name, caption, figure = draw(combined_run(hard_values))
+    assert figure_style.render(figure, name)["png"]
     assert caption.endswith(".")
 
 
@@ -212,6 +209,7 @@ def test_whole_report(run_directory, tmp_path):
     files = sorted(p.relative_to(first) for p in first.rglob("*") if p.is_file())
     for name in files:
         assert (first / name).read_bytes() == (second / name).read_bytes(), name
+    assert len(list((first / "figures").glob("*.svg"))) == len(kind.FIGURES)
     for make, formats in kind.TABLES:
         for form in formats:
             assert (first / f"{make.__name__}.{form}").stat().st_size > 0
