@@ -108,7 +108,9 @@ Real bin_float_from_mpfr(mpfr_srcptr rounded) {
     }
     mpz_clear(part);
     mpz_clear(z);
-    r = ldexp(r, static_cast<int>(exponent));
+    // Of the least numbers the exponent of the last bit is no int: the first bit's is.
+    const long first = 32 * limbs;
+    r = ldexp(Real(ldexp(r, static_cast<int>(-first))), static_cast<int>(exponent + first));
   }
   return negative ? Real(-r) : r;
 }

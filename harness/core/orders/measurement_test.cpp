@@ -62,10 +62,10 @@ TEST(Measurement, ADriftInSlicesHasTheBitsOfOneInOneGo) {
 
 TEST(Measurement, ALadderOfTakenRungsIsTheOneMeasured) {
   const OrderEngine& engine = *find_order_engine("double");
-  const auto whole = engine.ladder("velocity_verlet", "pendulum", 64);
+  const auto whole = engine.ladder("velocity_verlet", "pendulum", 4096);
   const auto pieces = pieces_of(*whole, 1);
   ASSERT_GE(pieces.size(), 6U);
-  const auto resumed = engine.ladder("velocity_verlet", "pendulum", 64);
+  const auto resumed = engine.ladder("velocity_verlet", "pendulum", 4096);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(resumed->take(pieces[i]));
   EXPECT_FALSE(resumed->take(pieces[5])) << "one is missing";
   EXPECT_EQ(pieces_of(*resumed, 1), std::vector(pieces.begin() + 4, pieces.end()));
