@@ -109,7 +109,7 @@ void add_integrators_command(CLI::App& app, Action& action) {
   auto o = std::make_shared<OrderOptions>();
   verb->add_option("--integrators", o->integrators, "all or names (`ulpgate list integrators`)")
       ->capture_default_str();
-  verb->add_option("--type,--types", o->types, "all or tokens, comma-separated")->capture_default_str();
+  verb->add_option("--types", o->types, "all or tokens, comma-separated")->capture_default_str();
   verb->add_option("--problems", o->problems, "all, or of oscillator, pendulum, kepler, rigid_body")
       ->capture_default_str();
   verb->add_option("--most-steps", o->most_steps, "steps double from 1 up to this")
