@@ -27,23 +27,30 @@ Moments moments(const std::vector<double>& x) {
   return {mean, n > 1 ? std::sqrt(squares / (n - 1)) : 0.0};
 }
 
-// Iterations per second of repeats from the start, each after one untimed step; fewer after Ctrl-C.
-std::vector<double> rates_of(const std::string& token, const SceneJob& job, unsigned repeats) {
+struct Repeats {
+  std::vector<double> rates;     // iterations per second
+  std::size_t memory_bytes = 0;  // of the last one at its end
+};
+
+// Repeats from the start, each after one untimed step; fewer after Ctrl-C.
+Repeats repeats_of(const std::string& token, const SceneJob& job, unsigned repeats) {
   using Clock = std::chrono::steady_clock;
-  std::vector<double> rates;
+  Repeats done;
   for (unsigned r = 0; r < repeats && !interrupted(); ++r) {
     const auto engine = engine_of(token, dem::Level::own, job);
     engine->step(1);
     const auto start = Clock::now();
     engine->step(job.steps);
-    rates.push_back(static_cast<double>(job.steps) /
-                    std::chrono::duration<double>(Clock::now() - start).count());
+    done.rates.push_back(static_cast<double>(job.steps) /
+                         std::chrono::duration<double>(Clock::now() - start).count());
+    done.memory_bytes = engine->memory_bytes();
   }
-  return rates;
+  return done;
 }
 
 // Points outside two standard deviations are dropped.
-Json row_of(const std::string& token, const SceneJob& job, const std::vector<double>& rates) {
+Json row_of(const std::string& token, const SceneJob& job, const Repeats& done) {
+  const std::vector<double>& rates = done.rates;
   const Moments all = moments(rates);
   std::vector<double> kept;
   for (const double v : rates) {
@@ -59,7 +66,8 @@ Json row_of(const std::string& token, const SceneJob& job, const std::vector<dou
           {"repeats", rates.size()},
           {"kept", kept.size()},
           {"iterations_per_s", of_kept.mean},
-          {"deviation", of_kept.deviation}};
+          {"deviation", of_kept.deviation},
+          {"memory_bytes", done.memory_bytes}};
 }
 
 void print_row(const Json& row) {
@@ -79,9 +87,9 @@ ExitCode measure(const SceneTask& task, unsigned repeats, bool json) {
   // Ctrl-C ends the repeats in hand; what is done is still reported.
   const InterruptGuard guard;
   for (const auto& token : task.types) {
-    const auto rates = rates_of(token, task.job, repeats);
-    if (rates.empty()) break;
-    rows.push_back(row_of(token, task.job, rates));
+    const Repeats done = repeats_of(token, task.job, repeats);
+    if (done.rates.empty()) break;
+    rows.push_back(row_of(token, task.job, done));
     if (token == "double") of_double = rows.back()["iterations_per_s"];
   }
   std::string text;

@@ -135,7 +135,6 @@ Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob&
   j["energy_slope"] = number_or_null(s.averaged.slope());
   j["energy_slope_raw"] = number_or_null(s.raw.slope());
   j["state_hash"] = fmt::format("{:016x}", state_hash(engine));
-  j["memory_bytes"] = engine.memory_bytes();
   j["plan"] = job.plan;
   return j;
 }

@@ -67,7 +67,6 @@ def scene_states(scenes):
                 record["scene"],
                 record["type"],
                 record.get("variant") or None,
-                record.get("memory_bytes"),
                 record.get("state_hash"),
                 record["plan"],
                 "; ".join(f"{entry['part']}: {entry['why']}" for entry in left_out),
@@ -77,7 +76,6 @@ def scene_states(scenes):
         _SCENE,
         _TYPE,
         Column("variant", "variant", "text"),
-        Column("memory_bytes", "memory (bytes)", "count"),
         Column("state_hash", "state hash", "code"),
         Column("plan", "plan", "code"),
         Column("left_out", "left out, and why", "prose"),
@@ -168,6 +166,7 @@ def benchmark_table(scenes):
                 f"{timing['kept']} of {timing['repeats']}",
                 timing["iterations_per_s"],
                 timing["deviation"],
+                timing.get("memory_bytes"),
                 bar.slowdown,
                 bar.slowdown_deviation
                 if math.isfinite(bar.slowdown_deviation)
@@ -183,6 +182,7 @@ def benchmark_table(scenes):
         Column("kept", "repeats kept", "text"),
         Column("iterations_per_s", "iterations/s", "real"),
         Column("deviation", "deviation", "real"),
+        Column("memory_bytes", "memory (bytes)", "count"),
         Column("slowdown", "slowdown", "real"),
         Column("slowdown_deviation", "deviation", "real"),
         Column("paper_slowdown", "slowdown, paper", "real"),
