@@ -25,6 +25,7 @@ double seconds_since(Clock::time_point start) {
 // What a killed process may lose of a measurement whose pieces may be of any size.
 constexpr double piece_s = 0.5;
 constexpr long first_piece_steps = 16;
+constexpr long greatest_piece_steps = 1L << 40;
 
 class MeasurementRun {
  public:
@@ -87,7 +88,8 @@ class MeasurementRun {
       const std::string text = m.proceed(steps, stop);
       const double seconds = seconds_since(start);
       keep({i, seconds, text}, m.steps_done() - before);
-      if (seconds < piece_s / 2) steps *= seconds < piece_s / 16 ? 8 : 2;
+      if (seconds < piece_s / 2)
+        steps = std::min(greatest_piece_steps, steps * (seconds < piece_s / 16 ? 8 : 2));
       if (seconds > piece_s * 2) steps = std::max(1L, steps / 2);
     }
   }

@@ -38,19 +38,38 @@ class LadderOf final : public LadderMeasurement {
 
  protected:
   [[nodiscard]] std::string measure_piece(long /*steps*/, const ode::StopFlag& stop) override {
-    const long steps = steps_;
-    const Real error = ode::error_at(integrator_, solved_, t_, steps, stop);
-    add(error);
-    return std::to_string(steps) + " " + to_hexfloat(error);
+    const std::string steps = std::to_string(steps_);
+    try {
+      const Real error = ode::error_at(integrator_, solved_, t_, steps_, stop);
+      add(error);
+      return steps + " " + to_hexfloat(error);
+    } catch (const std::runtime_error& e) {
+      leave_out(e.what());
+      return steps + " " + std::string(left_out) + e.what();
+    }
   }
   [[nodiscard]] bool take_piece(std::string_view piece) override {
-    const auto words = words_of(piece, ' ');
-    if (words.size() != 2 || count_of(words[0]) != steps_) return false;
-    add(parse_real<Real>(words[1]));
+    const auto space = piece.find(' ');
+    if (space == std::string_view::npos || count_of(piece.substr(0, space)) != steps_) return false;
+    const auto rest = piece.substr(space + 1);
+    if (rest.starts_with(left_out)) {
+      leave_out(rest.substr(left_out.size()));
+    } else {
+      add(parse_real<Real>(rest));
+    }
     return true;
   }
 
  private:
+  static constexpr std::string_view left_out = "left out: ";
+
+  // A step that is too large for the method is none of the ladder's; only all of them are a refusal.
+  void leave_out(std::string_view why) {
+    steps_ *= 2;
+    before_ = Real(0);
+    if (steps_ > most_steps_ && ladder_.rungs.empty()) refuse(why);
+  }
+
   void add(const Real& error) {
     using std::isfinite, std::log2;
     OrderRung rung{

@@ -13,7 +13,7 @@ std::string Measurement::proceed(long steps, const ode::StopFlag& stop) {
   try {
     return measure_piece(steps, stop);
   } catch (const std::runtime_error& e) {
-    refusal_ = e.what();
+    refuse(e.what());
     return std::string(refused) + e.what();
   }
 }
@@ -21,7 +21,7 @@ std::string Measurement::proceed(long steps, const ode::StopFlag& stop) {
 bool Measurement::take(std::string_view piece) {
   if (complete()) return false;
   if (piece.starts_with(refused)) {
-    refusal_ = piece.substr(refused.size());
+    refuse(piece.substr(refused.size()));
     return true;
   }
   try {

@@ -38,6 +38,7 @@ class Measurement {
   [[nodiscard]] virtual std::string measure_piece(long steps, const ode::StopFlag& stop) = 0;
   // Throws std::invalid_argument for a text that is no piece.
   [[nodiscard]] virtual bool take_piece(std::string_view piece) = 0;
+  void refuse(std::string_view why) { refusal_ = why; }
 
  private:
   std::optional<std::string> refusal_;
