@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 
-#include "harness/core/arguments/near_midpoint_arguments.hpp"
 #include "harness/core/judging/screened_judging.hpp"
 #include "harness/core/records/summary_text.hpp"
+#include "harness/core/testing/near_midpoints.hpp"
 #include "kernels/math/function_table.hpp"
 #include "tests/built_types.hpp"
 

@@ -1,6 +1,6 @@
 // Search for results next to midpoints: local expansions, and multiples of a slope that come close to
 // integers.
-#include "harness/core/arguments/near_midpoint_arguments.hpp"
+#include "harness/core/testing/near_midpoints.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -251,16 +251,6 @@ std::vector<NearMidpoint> near_midpoints(const FunctionInfo& f, const FloatForma
     best.reset();
   }
   return points;
-}
-
-ArgumentList near_midpoint_arguments(const FunctionInfo& f, const FloatFormat& format, std::size_t count,
-                                     std::uint64_t seed) {
-  ArgumentList list;
-  for (NearMidpoint& point : near_midpoints(f, format, count, seed)) {
-    list.emplace_back();
-    list.back().push_back(std::move(point.argument));
-  }
-  return list;
 }
 
 }  // namespace ulpgate

@@ -34,8 +34,4 @@ struct NearMidpoint {
                                                        std::size_t count, std::uint64_t seed,
                                                        int windows = 1);
 
-// Their arguments, as a list of points.
-[[nodiscard]] ArgumentList near_midpoint_arguments(const FunctionInfo& f, const FloatFormat& format,
-                                                   std::size_t count, std::uint64_t seed);
-
 }  // namespace ulpgate

@@ -1,5 +1,5 @@
 // Tests of arguments next to midpoints: how close they come, and that they are what they say.
-#include "harness/core/arguments/near_midpoint_arguments.hpp"
+#include "harness/core/testing/near_midpoints.hpp"
 
 #include <gtest/gtest.h>
 
