@@ -20,7 +20,8 @@ struct NearMidpoint {
 
 // Up to `count` points, fixed by the seed, half of them next to midpoints; each is the best of `windows`
 // windows.  None for functions that are not real functions of one argument, or only have results that are
-// numbers of the format (logb).
+// numbers of the format (logb).  For formats of up to 64 digits: in wider ones most of the arguments drawn
+// are so small that the function is its argument to all digits, or constant.
 //
 // Next to x, f(x + k u) for the spacing u is a + b k + c k^2 ULP; where c k^2 is small, the k that bring it
 // closest to a midpoint follow from the continued fraction of b.  That is the linear case of the search for
