@@ -98,7 +98,8 @@ ArgumentList worst_cases_of(const std::filesystem::path& directory, const Functi
 std::string offer_worst_case(const std::filesystem::path& directory, const FunctionInfo& f,
                              const std::string& token, const std::vector<MpfrValue>& args, double error_ulp) {
   const auto file = directory / (token + ".txt");
-  const Subject& subject = subject_or_fail(std::string(f.name), token);
+  const std::string name(f.name);
+  const Subject& subject = subject_or_fail(name, token);
   for (const auto& point : worst_cases_of(directory, f, token)) {
     const Point there = subject.point(point);
     double error = -1;
