@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "reference/condition/condition.hpp"
+#include "reference/condition/condition_bound.hpp"
 #include "reference/oracle/oracle_erf.hpp"
 #include "reference/oracle/oracle_gamma.hpp"
 #include "reference/types/exchange.hpp"
@@ -284,6 +285,40 @@ TEST(Condition, MatchesClosedForms) {
   EXPECT_EQ(condition(FunctionId::log, {"1"}), HUGE_VAL) << "a zero";
   EXPECT_TRUE(std::isnan(condition(FunctionId::log, {"-1"})));
   EXPECT_EQ(condition(FunctionId::acos, {"1"}), HUGE_VAL) << "x = 1: one-sided, f is zero";
+}
+
+// The engine asks for the number itself only where the bound says that it may matter.
+TEST(Condition, BoundsFromDerivativesLieBelowAndClose) {
+  struct Case {
+    FunctionId id;
+    std::initializer_list<const char*> args;
+  };
+  for (const Case& c : {Case{FunctionId::add, {"1", "-0.75"}}, Case{FunctionId::sub, {"3", "2.875"}},
+                        Case{FunctionId::sqrt, {"5"}}, Case{FunctionId::mul, {"3", "7"}},
+                        Case{FunctionId::fma, {"3", "5", "-14.5"}}, Case{FunctionId::exp, {"7.5"}},
+                        Case{FunctionId::sin, {"3.125"}}, Case{FunctionId::log, {"1.0625"}},
+                        Case{FunctionId::tgamma, {"9.5"}}}) {
+    const FunctionInfo& f = info_of(c.id);
+    const auto args = vector(c.args);
+    std::vector<long double> rounded;
+    for (const MpfrValue& a : args) rounded.push_back(mpfr_get_ld(a, MPFR_RNDN));
+    const long double value = mpfr_get_ld(exact(c.id, c.args)[0], MPFR_RNDN);
+    const double bound = condition_lower_bound(f, rounded.data(), value, 0);
+    const double condition = condition_number(f, args, 0, 53);
+    EXPECT_LE(bound, condition) << f.name;
+    EXPECT_GT(bound, 0.99 * condition) << f.name;
+  }
+}
+
+TEST(Oracle, LaguerrePolynomialsAtInfinitiesAreTheirLeadingTerms) {
+  const auto at = [](const char* n, const char* x) {
+    return mpfr_get_d(exact(FunctionId::laguerre, {n, "1", x})[0], MPFR_RNDN);
+  };
+  EXPECT_EQ(at("0", "@Inf@"), 1);
+  EXPECT_EQ(at("3", "@Inf@"), -HUGE_VAL);
+  EXPECT_EQ(at("2", "@Inf@"), HUGE_VAL);
+  EXPECT_EQ(at("3", "-@Inf@"), HUGE_VAL);
+  EXPECT_TRUE(std::isnan(at("3", "@NaN@")));
 }
 
 TEST(Oracle, ComplexPowersNextToTheAxesKeepTheirSmallPart) {

@@ -41,6 +41,8 @@ TEST(Judge, Double) {
        "infinity counts as 2^1024 within 1 ULP of it"},
       {"@Inf@", "0x1p+1025", Outcome::finite, 0, "infinity is right beyond the range"},
       {"0x1.fffffffffffffp+1023", "0x1p+1025", Outcome::overflow_missed, 0, "overflow missed"},
+      {"0x1.fffffffffffffp+1023", "0x1.fffffffffffffcp+1023", Outcome::finite, 0.75,
+       "the largest number within 1 ULP of what rounds to infinity"},
       {"-@Inf@", "1", Outcome::inf, 0, "infinity of the wrong sign"},
       {"1", "@Inf@", Outcome::inf, 0, "a pole missed"},
       {"@NaN@", "1", Outcome::nan, 0, "NaN for a value"},
@@ -160,6 +162,17 @@ TEST(Rounding, StepsThroughEveryKindOfNeighbour) {
       step_in_format(v, direction, float_format<double>());
       EXPECT_EQ(from_mpfr<double>(v), std::nextafter(x, direction * HUGE_VAL)) << x;
     }
+  }
+}
+
+TEST(Rounding, StepsFromTheLeastNumberToZeroWithoutSubnormals) {
+  const FloatFormat f = float_format<MpfrReal<62>>();
+  for (const int sign : {1, -1}) {
+    MpfrValue v(f.precision);
+    mpfr_set_si_2exp(v, sign, f.exponent_least(), MPFR_RNDN);
+    step_in_format(v, -sign, f);
+    EXPECT_TRUE(mpfr_zero_p(v.get()));
+    EXPECT_EQ(mpfr_signbit(v.get()) != 0, sign < 0);
   }
 }
 
