@@ -31,6 +31,7 @@ std::vector<MpfrValue> vector(std::initializer_list<const char*> texts) {
 
 std::vector<MpfrValue> exact(FunctionId id, std::initializer_list<const char*> args) {
   std::vector<MpfrValue> out;
+  out.reserve(static_cast<std::size_t>(info_of(id).parts));
   for (int i = 0; i < info_of(id).parts; ++i) out.emplace_back(bits);
   exact_value(info_of(id), vector(args), out);
   return out;
@@ -301,6 +302,7 @@ TEST(Condition, BoundsFromDerivativesLieBelowAndClose) {
     const FunctionInfo& f = info_of(c.id);
     const auto args = vector(c.args);
     std::vector<long double> rounded;
+    rounded.reserve(args.size());
     for (const MpfrValue& a : args) rounded.push_back(mpfr_get_ld(a, MPFR_RNDN));
     const long double value = mpfr_get_ld(exact(c.id, c.args)[0], MPFR_RNDN);
     const double bound = condition_lower_bound(f, rounded.data(), value, 0);
