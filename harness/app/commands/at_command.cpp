@@ -1,12 +1,15 @@
 // ulpgate at: one point, everything known about it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/machine/environment.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/records.hpp"
 #include "harness/app/store/worst_cases.hpp"
+#include "harness/core/watch/heartbeat.hpp"
 
 namespace ulpgate::app {
 
@@ -71,6 +74,16 @@ Json kernel_json(const Subject& subject, const Point& point) {
           {"quantities", rows}};
 }
 
+// The outcome "finite" is that of every result that is what it should be: of the same kind as the exact one.
+std::string outcome_words(const PointPart& p) {
+  const auto any = [&](const char* word) {
+    return std::ranges::any_of(p.exact_decimal,
+                               [&](const std::string& x) { return x.find(word) != std::string::npos; });
+  };
+  if (p.judgement.outcome != Outcome::finite) return std::string(name_of(p.judgement.outcome));
+  return any("nan") ? "NaN, as it should be" : any("inf") ? "infinite, as it should be" : "finite";
+}
+
 void print_part(const PointPart& p) {
   const bool finite = p.judgement.outcome == Outcome::finite;
   for (std::size_t i = 0; i < p.got_hex.size(); ++i) {
@@ -82,7 +95,7 @@ void print_part(const PointPart& p) {
   if (p.normwise_error) fmt::print("  {:<19} {} roundings\n", "normwise error", shown(*p.normwise_error, 6));
   fmt::print("  {:<19} {}\n", "condition number",
              std::isfinite(p.condition) ? fmt::format("{:.6g}", p.condition) : shown(p.condition, 0));
-  fmt::print("  {:<19} {}\n", "outcome", name_of(p.judgement.outcome));
+  fmt::print("  {:<19} {}\n", "outcome", outcome_words(p));
 }
 
 void print_text(const Subject& subject, const Point& point) {
@@ -106,24 +119,24 @@ std::string shown_inputs(const SubjectInfo& info) {
   return " (" + text.substr(1) + ")";
 }
 
-ExitCode run_at(const std::vector<std::string>& words) {
+Verdict run_at(const std::vector<std::string>& words) {
   std::vector<std::string> plain;
   bool json = false;
   for (const auto& word : words) {
     if (word == "--json") {
       json = true;
     } else if (word.starts_with("--")) {
-      throw Failure(ExitCode::bad_input, fmt::format("unknown option '{}' (ulpgate at --help)", word));
+      throw Failure(Standing::bad_input, fmt::format("unknown option '{}' (ulpgate at --help)", word));
     } else {
       plain.push_back(word);
     }
   }
-  if (plain.size() < 2) throw Failure(ExitCode::bad_input, "usage: ulpgate at FUNCTION TYPE X... [--json]");
+  if (plain.size() < 2) throw Failure(Standing::bad_input, "usage: ulpgate at FUNCTION TYPE X... [--json]");
   const Subject& subject = subject_or_fail(plain[0], plain[1]);
   const SubjectInfo& info = subject.info();
   const std::size_t wanted = info.input_components();
   if (plain.size() != wanted + 2) {
-    throw Failure(ExitCode::bad_input,
+    throw Failure(Standing::bad_input,
                   fmt::format("{} takes {} {}{}{}, found {}", info.name, wanted,
                               info.kind == SubjectKind::function ? "argument" : "number",
                               wanted == 1 ? "" : "s", shown_inputs(info), plain.size() - 2));
@@ -135,13 +148,14 @@ ExitCode run_at(const std::vector<std::string>& words) {
     args.push_back(function ? parse_argument(*function, i, subject.type(), plain[i + 2], place)
                             : parse_number(subject.type(), plain[i + 2], place));
   }
-  const Point point = subject.point(args);
+  const WorkPlace place(info.name, subject.type().token, "");
+  const Point point = in_checked_environment([&] { return subject.point(args); });
   if (json) {
     fmt::print("{}\n", (function ? function_json(subject, point) : kernel_json(subject, point)).dump());
   } else {
     print_text(subject, point);
   }
-  return ExitCode::pass;
+  return Standing::pass;
 }
 
 }  // namespace
@@ -153,6 +167,7 @@ void add_at_command(CLI::App& app, Action& action) {
       "ulpgate at FUNCTION|KERNEL TYPE X... [--json]\n"
       "X is decimal, hexfloat (-0x1.5p+2), inf or nan, rounded once to TYPE; a complex argument is two "
       "numbers.\n"
+      "`ulpgate --timeout S at ...` waits longer than 60 s, or not as long.\n"
       "--json prints the keys function type args value reference ulp_error float_distance condition "
       "outcome.");
   // Arguments may begin with a minus: the words are taken as they stand rather than as options.

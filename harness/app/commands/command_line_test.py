@@ -5,10 +5,15 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "reports"))
+
+from ulpgate_report.records.checksums import sealed  # noqa: E402
+
 ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 WRONG_EXP = os.environ.get("ULPGATE_WRONG_EXP", "")
 
@@ -163,9 +168,15 @@ def test_records_do_not_depend_on_threads_or_shards(tmp_path):
     code, _, err = run("merge", parts[0], parts[0], "--out", str(tmp_path / "twice"))
     assert code == 2 and "twice" in err
     context = pathlib.Path(parts[1]) / "context.json"
-    context.write_text(json.dumps(json.loads(context.read_text()) | {"cpu": "another"}))
+    other = json.loads(context.read_text()) | {"cpu": "another"}
+    del other["checksum"]
+    context.write_text(sealed(json.dumps(other, indent=2)))
     code, _, err = run("merge", *parts, "--out", str(tmp_path / "mixed"))
-    assert code == 0 and err.count("another cpu") == 1 and parts[1] in err
+    assert code == 2 and 'cpu "another"' in err and parts[1] in err
+    assert not (tmp_path / "mixed").exists()
+    allowed = ["--allow-other-machine", "--out", str(tmp_path / "mixed")]
+    code, _, err = run("merge", *parts, *allowed)
+    assert code == 0 and err.count('cpu "another"') == 1 and parts[1] in err
 
 
 def test_the_screened_reference_gives_the_records_of_the_full_one(tmp_path):
@@ -264,7 +275,7 @@ def test_gate_passes_then_names_the_wrong_exp_first(tmp_path):
     assert point["ulp_error"] > 1e3
     assert json.loads(run(*words, "--json")[1])["ulp_error"] < 1
     code, out, _ = run("gate", str(tmp_path / "bad"), "--budgets", budgets, "--update")
-    assert code == 1 and "WOULD RAISE exp double" in out
+    assert code == 1 and "WOULD LOOSEN exp double" in out
 
 
 def test_gate_of_nothing_is_exit_3(tmp_path):

@@ -72,8 +72,9 @@ def test_kernel_budgets_pass_then_catch_a_worse_record(tmp_path):
     lines = file.read_text().splitlines()
     at = lines.index('[budget."rotation.new_orientation"]')
     assert lines[at + 1] == 'implementation = "ulpgate"'
-    assert lines[at + 3].startswith("over_condition = {")
-    lines[at + 3] = "over_condition = { typical = 0.001 }"
+    while not lines[at].startswith("over_condition = {"):
+        at += 1
+    lines[at] = "over_condition = { typical = 0.001 }"
     file.write_text("\n".join(lines) + "\n")
     code, out, _ = run("gate", tmp_path / "a", "--budgets", budgets)
     assert code == 1 and out.startswith("FAIL         rotation.new_orientation double")

@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/machine/machine_facts.hpp"
 #include "harness/app/orders/order_output.hpp"
+#include "harness/app/reading/line_kinds.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
@@ -21,13 +23,13 @@ constexpr const char* drift_file = "drift.jsonl";
 const std::string whole = Shard().text();
 
 // What a finished run comes to.
-ExitCode report(const OrderVerdicts& verdicts, const OrderOptions& o) {
+Verdict report(const OrderVerdicts& verdicts, const OrderOptions& o) {
   for (const auto& line : verdicts.wrong) fmt::print(o.json ? stderr : stdout, "FAIL {}\n", line);
   for (const auto& line : verdicts.refused) fmt::print(stderr, "ulpgate: not measured: {}\n", line);
-  if (!verdicts.wrong.empty()) return ExitCode::regression;
-  if (!verdicts.refused.empty()) return ExitCode::incomplete;
-  if (verdicts.judged > 0) return ExitCode::pass;
-  throw Failure(ExitCode::incomplete,
+  if (!verdicts.wrong.empty()) return Standing::regression;
+  if (!verdicts.refused.empty()) return Standing::incomplete;
+  if (verdicts.judged > 0) return Standing::pass;
+  throw Failure(Standing::incomplete,
                 "nothing measured: no integrator with an order of its own has six rungs that begin above the "
                 "floor of rounding; more --most-steps or a type of more digits give them");
 }
@@ -45,43 +47,45 @@ void print_table(const OrderJob& job, const OrderOptions& o) {
     if (job.measurements[i]->complete()) fmt::print("{}", table_line(job.rows[i], o));
 }
 
-ExitCode look_again(const std::filesystem::path& out, const char* records, const OrderOptions& o) {
+Verdict look_again(const std::filesystem::path& out, const OrderOptions& o) {
+  const Json context = read_context(out);
+  const LineKind& lines = o.drift_units != 0 ? drift_lines : order_lines;
+  static_cast<void>(read_rows(out, context, lines));
   fmt::print(stderr, "ulpgate: {} is complete already\n", out.string());
-  const auto context = out / "context.json";
-  const Json j = Json::parse(read_file(context), nullptr, false);
-  const auto verdicts =
-      verdicts_from_json(j.is_object() ? j.value("verdicts", Json()) : Json(), context.string());
-  if (o.json) fmt::print("{}", read_file(out / records));
+  const auto verdicts = verdicts_from_json(context.value("verdicts", Json()), (out / context_file).string());
+  if (o.json) fmt::print("{}", read_file(out / lines.file));
   return report(verdicts, o);
 }
 
-ExitCode run_integrators(const OrderOptions& o) {
+Verdict run_integrators(const OrderOptions& o) {
   if (o.out.empty() && (o.resume || o.overwrite))
-    throw Failure(ExitCode::bad_input, "--resume and --overwrite need --out DIR");
+    throw Failure(Standing::bad_input, "--resume and --overwrite need --out DIR");
   const OrderJob job = make_order_job(o);
-  const std::filesystem::path out = o.out;
   const char* records = o.drift_units != 0 ? drift_file : orders_file;
   const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
+  std::optional<OutputDirectory> out;
   std::unique_ptr<PieceLog> log;
+  Json context;
   if (!o.out.empty()) {
-    make_directory(out);
-    if (o.resume && is_finished(out, job.plan, whole)) return look_again(out, records, o);
-    guard_output(out, job.plan, o.overwrite);
-    log = std::make_unique<PieceLog>(out, RunIdentity{"integrators", job.plan, whole, machine_facts()},
-                                     partial_run(o.resume, o.overwrite));
-    // Those of another plan must not stand beside the new context.
-    if (o.overwrite)
-      for (const auto* file : {orders_file, drift_file}) std::filesystem::remove(out / file);
+    out.emplace(o.out, RunIdentity{"integrators", job.plan, {whole}, "", machine_facts()},
+                partial_run(o.resume, o.overwrite));
+    if (o.resume && out->is_finished()) return look_again(out->path(), o);
+    context = make_scene_context(job.plan, job.plan_text, job.types, threads, false);
+    log = std::make_unique<PieceLog>(*out);
+    out->begin(context);
   }
-  const bool complete = run_measurements({"integrators", job.measurements, job.costs}, threads, log.get());
+  std::vector<std::string> names;
+  for (const auto& row : job.rows)
+    names.push_back(fmt::format("{} {} {}", row.integrator.name, row.problem, row.type));
+  const bool complete =
+      run_measurements({"integrators", job.measurements, names, job.costs}, threads, log.get());
   const std::string text = all_records(job, o);
   const OrderVerdicts verdicts = complete ? judge_rows(job, o) : OrderVerdicts();
   if (log) {
-    write_file(out / records, text);
-    Json context = make_scene_context(job.plan, job.plan_text, job.types, threads, complete);
-    context["shards"] = {whole};
+    out->write(records, text);
+    context["complete"] = complete;
     context["verdicts"] = to_json(verdicts);
-    write_context(out, context, complete);
+    out->finish(context, complete);
     if (complete) log->remove();
   }
   if (o.json) {
@@ -90,8 +94,8 @@ ExitCode run_integrators(const OrderOptions& o) {
     print_table(job, o);
   }
   if (complete) return report(verdicts, o);
-  throw Failure(ExitCode::incomplete,
-                log ? fmt::format("interrupted; what was done is in {}; --resume goes on", out.string())
+  throw Failure(Standing::incomplete,
+                log ? fmt::format("interrupted; what was done is in {}; --resume goes on", o.out)
                     : "interrupted; without --out nothing is kept");
 }
 

@@ -21,14 +21,14 @@ void print_unstable(const std::vector<RowRecord>& records) {
              unstable, records.size(), stability_limit);
 }
 
-ExitCode run_audit() {
+Verdict run_audit() {
   constexpr std::uint64_t states = 16;
   const auto found = audit_kernels(audited_kernel_table(), states);
   for (const auto& hidden : found)
     fmt::print("{}: the double {} becomes a number of the kernel's type: good to 16 digits only\n",
                hidden.kernel, hidden.literal);
   fmt::print("{} kernels, {} hidden doubles\n", dem::all_kernels().size(), found.size());
-  return found.empty() ? ExitCode::pass : ExitCode::regression;
+  return found.empty() ? Standing::pass : Standing::regression;
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void add_kernels_command(CLI::App& app, Action& action) {
       if (*audit) return run_audit();
       return run_and_write(Plan(request_of(*o), {}), *o, nullptr, [](const RunResult& result) {
         print_unstable(result.records);
-        return ExitCode::pass;
+        return Standing::pass;
       });
     };
   });

@@ -150,7 +150,7 @@ void add_list_command(CLI::App& app, Action& action) {
       if (*what == "kernels") list_kernels(*json);
       if (*what == "scenes") list_scenes(*json);
       if (*what == "integrators") list_integrators(*json);
-      return ExitCode::pass;
+      return Standing::pass;
     };
   });
 }

@@ -1,16 +1,18 @@
 // ulpgate: parses the command line, runs the verb, turns failures into messages and exit codes.
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/machine/build_facts.hpp"
+#include "harness/app/machine/ending.hpp"
+#include "harness/app/machine/watchdog.hpp"
 #include "harness/app/shell/crash_report.hpp"
-#include "harness/app/store/build_facts.hpp"
-#include "harness/app/store/context.hpp"
+#include "harness/app/shell/strict_options.hpp"
+#include "reference/types/mpfr_value.hpp"
 
-int main(int argc, char** argv) {
-  using namespace ulpgate::app;
-  install_crash_report();
+namespace ulpgate::app {
+namespace {
+
+int run(int argc, char** argv) {
   const ulpgate::MpfrThread mpfr;
   CLI::App app("ulpgate measures, explains and gates floating-point error.", "ulpgate");
   app.set_version_flag("--version", fmt::format("ulpgate {}", build_facts::version));
@@ -29,25 +31,32 @@ int main(int argc, char** argv) {
   add_merge_command(app, action);
   add_gate_command(app, action);
   add_report_command(app, action);
+  double timeout_s = 60;
+  add_timeout_option(app, timeout_s);
+  make_options_strict(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     const bool asked = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    app.exit(e);
-    return static_cast<int>(asked ? ExitCode::pass : ExitCode::bad_input);
+    const std::string wrong = asked ? "" : wrong_verb(app, argc, argv);
+    if (wrong.empty()) {
+      app.exit(e);
+    } else {
+      fmt::print(stderr, "ulpgate: {} (ulpgate --help)\n", wrong);
+    }
+    return exit_code(asked ? Standing::pass : Standing::bad_input);
   }
-  try {
-    assert_floating_point_environment();
-    const ExitCode code = action();
-    // What was written before has left its mark where it failed.
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      throw Failure(ExitCode::environment, "cannot write to standard output");
-    return static_cast<int>(code);
-  } catch (const Failure& e) {
-    fmt::print(stderr, "ulpgate: {}\n", e.what());
-    return static_cast<int>(e.code());
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "ulpgate: internal error: {}\n", e.what());
-    return static_cast<int>(ExitCode::environment);
-  }
+  const Ending ending = end_of(action, timeout_s);
+  if (!ending.message.empty()) fmt::print(stderr, "ulpgate: {}\n", ending.message);
+  return exit_code(ending.standing);
+}
+
+}  // namespace
+}  // namespace ulpgate::app
+
+int main(int argc, char** argv) {
+  ulpgate::app::install_crash_report();
+  const int code = ulpgate::app::run(argc, argv);
+  ulpgate::app::ends_by_itself();
+  return code;
 }

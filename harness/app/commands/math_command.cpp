@@ -6,8 +6,8 @@
 
 #include "harness/app/commands/commands.hpp"
 #include "harness/app/run/plan_run.hpp"
+#include "harness/app/run/record_verdicts.hpp"
 #include "harness/app/store/worst_cases.hpp"
-#include "harness/core/functions/oracle_defects.hpp"
 
 namespace ulpgate::app {
 
@@ -19,7 +19,7 @@ struct MathOptions : PlanOptions {
 
 Plan make_plan(const MathOptions& o) {
   PlanRequest request = request_of(o);
-  narrow_to_exhaustible(o.subjects, o.types, request);
+  keep_rows_of_named_strata(o.subjects, o.types, request);
   WorstCases worst;
   const bool wants_worst = std::ranges::find(request.strata, Stratum::worst) != request.strata.end();
   const std::filesystem::path directory = o.worst_cases.empty() ? "ci/worst_cases" : o.worst_cases;
@@ -31,33 +31,6 @@ Plan make_plan(const MathOptions& o) {
     fmt::print(stderr, "ulpgate: note: no directory {}: no worst cases are replayed\n", directory.string());
   }
   return {std::move(request), worst};
-}
-
-// The two oracles must agree wherever no known defect of the family explains the difference.
-ExitCode report_oracles(const std::vector<RowRecord>& records) {
-  std::uint64_t compared = 0;
-  std::uint64_t explained = 0;
-  ExitCode code = ExitCode::pass;
-  for (const auto& r : records) {
-    compared += r.summary.oracle.compared;
-    if (r.summary.oracle.disagreed == 0) continue;
-    if (known_oracle_defect(*find_function(r.subject), r.type)) {
-      explained += r.summary.oracle.disagreed;
-      continue;
-    }
-    code = ExitCode::regression;
-    std::string args;
-    for (const auto& a : r.points.oracle_argmax) args += " " + a;
-    fmt::print(stderr,
-               "ulpgate: the oracles disagree: {} {} {} {}: RealHP<4> and MPFR differ by up to {:.3g} ULP of "
-               "the type in {} "
-               "of {} samples, most at{}\n",
-               r.subject, r.part, r.type, r.stratum, r.summary.oracle.difference.value,
-               r.summary.oracle.disagreed, r.summary.oracle.compared, args);
-  }
-  fmt::print(stderr, "ulpgate: oracles compared on {} results; {} differ by known defects of a RealHP<4>\n",
-             compared, explained);
-  return code;
 }
 
 // The largest errors of all floats: no other argument exists.
@@ -84,28 +57,13 @@ void report_stages(const RunResult& result) {
   fmt::print(stderr, "ulpgate: decided by the stages of the reference: {} of {} samples\n", text, all);
 }
 
-// What its authors promise of a code is broken by any larger error: no budget allows for that.
-ExitCode report_claims(const std::vector<RowRecord>& records) {
-  ExitCode code = ExitCode::pass;
-  for (const auto& r : records) {
-    const auto claim = find_subject(r.subject, r.type)->info().claimed_ulp;
-    if (!claim || r.summary.judged() == 0 || r.summary.max_error.value <= *claim) continue;
-    code = ExitCode::regression;
-    fmt::print(
-        stderr,
-        "ulpgate: {} {} of {} is claimed to be off by at most {} ULP and is off by {}: ulpgate at {} {} "
-        "{}\n",
-        r.subject, r.type, r.implementation, *claim, r.summary.max_error.value, r.subject, r.type,
-        fmt::join(r.points.argmax, " "));
-  }
-  return code;
-}
-
-ExitCode run_math(const MathOptions& o, Ranks* ranks) {
+Verdict run_math(const MathOptions& o, Ranks* ranks) {
   return run_and_write(make_plan(o), o, ranks, [](const RunResult& result) {
     report_stages(result);
     report_proofs(result.records);
-    return std::max(report_oracles(result.records), report_claims(result.records));
+    Verdict verdict = oracle_verdict(result.records);
+    verdict |= claim_verdict(result.records);
+    return verdict;
   });
 }
 

@@ -13,18 +13,16 @@
 #include <mpi.h>
 
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/machine/build_facts.hpp"
+#include "harness/app/machine/ending.hpp"
+#include "harness/app/machine/watchdog.hpp"
 #include "harness/app/run/mpi_ranks.hpp"
 #include "harness/app/shell/crash_report.hpp"
-#include "harness/app/store/build_facts.hpp"
-#include "harness/app/store/context.hpp"
+#include "harness/app/shell/strict_options.hpp"
+#include "reference/types/mpfr_value.hpp"
 
 namespace ulpgate::app {
 namespace {
-
-struct Ending {
-  ExitCode code = ExitCode::pass;
-  std::string message;
-};
 
 bool goes_on_without_the_dead() {
   return std::getenv("OMPI_MCA_orte_enable_recovery") != nullptr;
@@ -38,19 +36,6 @@ void end_without_finalising(int code) {
     std::this_thread::sleep_for(std::chrono::seconds(10));
     std::_Exit(code);
   }).detach();
-}
-
-Ending run(const Action& action) {
-  try {
-    assert_floating_point_environment();
-    const ExitCode code = action();
-    if (std::fflush(stdout) != 0) throw Failure(ExitCode::environment, "cannot write to standard output");
-    return {code, ""};
-  } catch (const Failure& e) {
-    return {e.code(), e.what()};
-  } catch (const std::exception& e) {
-    return {ExitCode::environment, fmt::format("internal error: {}", e.what())};
-  }
 }
 
 // Rank 0 speaks for all; the others are told apart by it.
@@ -74,21 +59,26 @@ int main_of_rank(int argc, char** argv, int rank) {
   Action action;
   std::optional<MpiRanks> ranks;
   add_math_command(app, action, [&]() -> Ranks* { return &*ranks; });
+  double timeout_s = 60;
+  add_timeout_option(app, timeout_s);
+  make_options_strict(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     const bool asked = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    if (rank == 0) app.exit(e);
-    return static_cast<int>(asked ? ExitCode::pass : ExitCode::bad_input);
+    const std::string wrong = asked ? "" : wrong_verb(app, argc, argv);
+    if (rank == 0 && !wrong.empty()) fmt::print(stderr, "ulpgate-mpi: {}\n", wrong);
+    if (rank == 0 && wrong.empty()) app.exit(e);
+    return exit_code(asked ? Standing::pass : Standing::bad_input);
   }
   ranks.emplace(patience_s);
-  const Ending ending = run(action);
+  const Ending ending = end_of(action, timeout_s);
   if (rank != 0) {
     ranks->leave(ending.message);
-    return static_cast<int>(ExitCode::pass);
+    return exit_code(Standing::pass);
   }
   if (!ending.message.empty()) fmt::print(stderr, "ulpgate-mpi: {}\n", ending.message);
-  const auto code = static_cast<int>(ending.code);
+  const auto code = exit_code(ending.standing);
   if (const auto silent = ranks->dismiss(); !silent.empty()) {
     fmt::print(stderr, "ulpgate-mpi: note: no answer from rank {}; other ranks did its units\n",
                fmt::join(silent, ", "));
@@ -108,7 +98,8 @@ int main(int argc, char** argv) {
   if (MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
       provided < MPI_THREAD_FUNNELED) {
     fmt::print(stderr, "ulpgate-mpi: this MPI knows no threads\n");
-    return static_cast<int>(ulpgate::app::ExitCode::environment);
+    ulpgate::app::ends_by_itself();
+    return ulpgate::exit_code(ulpgate::Standing::environment);
   }
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   int code = 0;
@@ -118,5 +109,6 @@ int main(int argc, char** argv) {
   }
   ulpgate::app::end_without_finalising(code);
   MPI_Finalize();
+  ulpgate::app::ends_by_itself();
   return code;
 }

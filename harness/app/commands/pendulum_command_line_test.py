@@ -6,12 +6,17 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import time
 from decimal import Decimal
 
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "reports"))
+
+from ulpgate_report.records.checksums import fnv1a, sealed  # noqa: E402
+
 ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 
 
@@ -190,7 +195,7 @@ def test_correlation_resumes_and_its_gate_catches_a_worse_run(tmp_path):
 
     budgets = tmp_path / "budgets"
     gate = ["gate", tmp_path / "whole", "--budgets", budgets]
-    assert run(*gate)[0] == 3, "no budgets"
+    assert run(*gate)[0] == 2, "no directory of budgets"
     assert run(*gate, "--update")[0] == 0
     assert run(*gate)[0] == 0
     scenes = tmp_path / "whole/scenes.jsonl"
@@ -201,6 +206,12 @@ def test_correlation_resumes_and_its_gate_catches_a_worse_run(tmp_path):
             row["max_energy_error"] *= 2
         worse.append(json.dumps(row))
     scenes.write_text("\n".join(worse) + "\n")
+    code, _, err = run(*gate)
+    assert code == 2 and "scenes.jsonl: not as the run wrote it" in err
+    context = json.loads((tmp_path / "whole/context.json").read_text())
+    context["records_checksum"]["scenes.jsonl"] = fnv1a(scenes.read_text())
+    del context["checksum"]
+    (tmp_path / "whole/context.json").write_text(sealed(json.dumps(context, indent=2)))
     code, out, _ = run(*gate)
     assert (
         code == 1

@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 
@@ -18,10 +22,15 @@ int run_program(const std::vector<std::string>& words, bool silent) {
   std::vector<char*> argv;
   for (const auto& w : words) argv.push_back(const_cast<char*>(w.c_str()));
   argv.push_back(nullptr);
+  const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0)
-    throw Failure(ExitCode::environment, fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
+    throw Failure(Standing::environment, fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
   if (child == 0) {
+#ifdef __linux__
+    // Ends with this program, which may have ended before it was asked for.
+    if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) ::_exit(127);
+#endif
     if (silent && (std::freopen("/dev/null", "w", stderr) == nullptr)) ::_exit(127);
     ::execvp(argv[0], argv.data());
     ::_exit(127);
@@ -40,7 +49,7 @@ std::string find_python() {
     if (run_program({python, "-c", "import matplotlib, numpy, jinja2, jsonschema"}, true) == 0) return python;
   }
   throw Failure(
-      ExitCode::environment,
+      Standing::environment,
       "no python3 with matplotlib, numpy, jinja2 and jsonschema: install Debian's python3-matplotlib "
       "python3-numpy python3-jinja2 python3-jsonschema, or name one in ULPGATE_PYTHON");
 }
@@ -54,12 +63,12 @@ std::filesystem::path find_report() {
     if (std::filesystem::exists(d.parent_path() / "reports/report.py"))
       return d.parent_path() / "reports/report.py";
   }
-  throw Failure(ExitCode::environment,
+  throw Failure(Standing::environment,
                 "reports/report.py is not found above the program; name its folder in ULPGATE_REPORTS");
 }
 
 // The report program either writes or prints; both are two runs of it.
-ExitCode run_report(const std::string& directory, const std::string& out, bool print) {
+Verdict run_report(const std::string& directory, const std::string& out, bool print) {
   const std::vector<std::string> words = {find_python(), find_report().string(), directory};
   std::vector<std::vector<std::string>> options;
   if (!out.empty()) options.push_back({"--out", out});
@@ -68,9 +77,9 @@ ExitCode run_report(const std::string& directory, const std::string& out, bool p
     std::vector<std::string> all = words;
     all.insert(all.end(), chosen.begin(), chosen.end());
     const int status = run_program(all, false);
-    if (status != 0) return status > 0 && status <= 4 ? static_cast<ExitCode>(status) : ExitCode::environment;
+    if (status != 0) return standing_of(status);
   }
-  return ExitCode::pass;
+  return Standing::pass;
 }
 
 }  // namespace
@@ -86,7 +95,7 @@ void add_report_command(CLI::App& app, Action& action) {
   report->callback([=, &action] {
     action = [=] {
       if (out->empty() && !*print)
-        throw Failure(ExitCode::bad_input, "report: give --out DIR, --print or both");
+        throw Failure(Standing::bad_input, "report: give --out DIR, --print or both");
       return run_report(*directory, *out, *print);
     };
   });

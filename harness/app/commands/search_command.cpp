@@ -1,4 +1,5 @@
-// ulpgate search: hunts for the largest error of a function in a type, and offers it to the worst cases.
+// ulpgate search: hunts for the largest error of a function in a type, everywhere and away from what is
+// known, and offers it to the worst cases.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,7 +8,8 @@
 #include <thread>
 
 #include "harness/app/commands/commands.hpp"
-#include "harness/app/shell/crash_report.hpp"
+#include "harness/app/machine/environment.hpp"
+#include "harness/app/machine/threads.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
@@ -15,6 +17,7 @@
 #include "harness/app/store/records.hpp"
 #include "harness/app/store/worst_cases.hpp"
 #include "harness/core/search/function_search.hpp"
+#include "harness/core/watch/heartbeat.hpp"
 
 namespace ulpgate::app {
 
@@ -31,6 +34,7 @@ struct SearchOptions {
   unsigned threads = 0;
   std::string out;
   std::string worst_cases;
+  double limit_ulp = 0;  // 0: none
   bool json = false;
 };
 
@@ -40,20 +44,61 @@ std::string reproducer(const Subject& subject, const Point& point) {
 }
 
 // The batches of a round on several threads.
-void run_round(FunctionSearch& search, std::size_t batches, unsigned threads) {
+void run_round(FunctionSearch& search, std::size_t batches, unsigned threads, const Subject& subject) {
   std::atomic<std::size_t> next{0};
-  const auto work = [&] {
+  const auto work = [&](unsigned) {
     const MpfrThread mpfr;
-    for (std::size_t i = next++; i < batches; i = next++) search.run_batch(i);
+    const WorkPlace place(subject.name(), subject.type().token, "search");
+    for (std::size_t i = next++; i < batches; i = next++) {
+      search.run_batch(i);
+      check_environment();
+    }
   };
-  std::vector<std::thread> pool;
-  for (unsigned t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
-  for (auto& t : pool) t.join();
+  Threads pool(1, threads, work);
+  work(0);
+  pool.join();
+}
+
+// One hunt over the whole domain, hard arguments first, and one that passes over the neighbourhoods of those
+// and of the known worst cases: where a function is off by 1e5 ULP, nothing else would ever be reported.
+struct Hunts {
+  std::unique_ptr<FunctionSearch> whole;
+  std::unique_ptr<FunctionSearch> elsewhere;
+
+  [[nodiscard]] std::uint64_t evaluations() const { return whole->evaluations() + elsewhere->evaluations(); }
+  // The one that is behind.
+  [[nodiscard]] FunctionSearch& next() const {
+    return elsewhere->evaluations() < whole->evaluations() ? *elsewhere : *whole;
+  }
+  [[nodiscard]] double best_error_ulp() const {
+    return std::max(whole->best_error_ulp(), elsewhere->best_error_ulp());
+  }
+  [[nodiscard]] SearchBest best() const {
+    return elsewhere->best_error_ulp() > whole->best_error_ulp() ? elsewhere->best() : whole->best();
+  }
+  [[nodiscard]] std::map<Outcome, SearchMismatch> mismatches() const {
+    auto all = whole->mismatches();
+    for (auto& [outcome, m] : elsewhere->mismatches()) {
+      SearchMismatch& to = all[outcome];
+      if (to.confirmed == 0) to.args = std::move(m.args);
+      to.confirmed += m.confirmed;
+    }
+    return all;
+  }
+};
+
+Hunts make_hunts(const SearchOptions& o, const FunctionInfo& f, const Subject& subject) {
+  ArgumentList known = subject.listed(Stratum::hard);
+  const std::filesystem::path directory = o.worst_cases.empty() ? "ci/worst_cases" : o.worst_cases;
+  // What is wrong with the files should be known before the hunt.
+  if (!o.worst_cases.empty() || std::filesystem::is_directory(directory)) {
+    for (auto& point : worst_cases_of(directory, f, o.type)) known.push_back(std::move(point));
+  }
+  return {make_search(subject, o.seed), make_search_elsewhere(subject, o.seed, known)};
 }
 
 // Until the seconds or the evaluations are spent; false after an interrupt.
-bool hunt(const SearchOptions& o, FunctionSearch& search, unsigned threads, const Subject& subject) {
+bool hunt(const SearchOptions& o, const Hunts& hunts, unsigned threads, const Subject& subject) {
   const InterruptGuard guard;
   Progress progress("search");
   const auto start = Clock::now();
@@ -62,19 +107,22 @@ bool hunt(const SearchOptions& o, FunctionSearch& search, unsigned threads, cons
     const std::uint64_t limit =
         o.evaluations != 0 ? o.evaluations : std::numeric_limits<std::uint64_t>::max();
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-    if (search.evaluations() >= limit || (o.evaluations == 0 && elapsed_s >= o.seconds)) return true;
-    run_round(search, search.begin_round(limit - search.evaluations()), threads);
+    if (hunts.evaluations() >= limit || (o.evaluations == 0 && elapsed_s >= o.seconds)) return true;
+    FunctionSearch& search = hunts.next();
+    run_round(search, search.begin_round(limit - hunts.evaluations()), threads, subject);
+    const WorkPlace place(subject.name(), subject.type().token, "search");
     search.end_round();
-    const std::string now = fmt::format("{:.4g}", search.best_error_ulp());
-    if (search.best_error_ulp() >= 0 && now != shown) {
-      const Point point = subject.point(search.best().args);
+    check_environment();
+    const std::string now = fmt::format("{:.4g}", hunts.best_error_ulp());
+    if (hunts.best_error_ulp() >= 0 && now != shown) {
+      const Point point = subject.point(hunts.best().args);
       progress.clear();
       fmt::print(stderr, "ulpgate: {} ULP at {} after {} evaluations\n", now, fmt::join(point.args_hex, " "),
-                 search.evaluations());
+                 hunts.evaluations());
       shown = now;
     }
     if (o.evaluations != 0) {
-      progress.update(static_cast<double>(search.evaluations()), static_cast<double>(o.evaluations));
+      progress.update(static_cast<double>(hunts.evaluations()), static_cast<double>(o.evaluations));
     } else {
       progress.update(elapsed_s, o.seconds);
     }
@@ -82,10 +130,10 @@ bool hunt(const SearchOptions& o, FunctionSearch& search, unsigned threads, cons
   return false;
 }
 
-Json to_json(const SearchOptions& o, const Subject& subject, const FunctionSearch& search,
-             const SearchBest& best, const Point& point) {
+Json to_json(const SearchOptions& o, const Subject& subject, const Hunts& hunts, const SearchBest& best,
+             const Point& point) {
   Json mismatches = Json::array();
-  for (const auto& [outcome, m] : search.mismatches()) {
+  for (const auto& [outcome, m] : hunts.mismatches()) {
     const Point at = subject.point(m.args);
     mismatches.push_back({{"outcome", name_of(outcome)},
                           {"args", at.args_hex},
@@ -98,10 +146,17 @@ Json to_json(const SearchOptions& o, const Subject& subject, const FunctionSearc
     values.push_back(part.got_hex.front());
     exact.push_back(part.exact_decimal.front());
   }
+  Json elsewhere = nullptr;
+  if (const SearchBest other = hunts.elsewhere->best(); !other.args.empty()) {
+    const Point at = subject.point(other.args);
+    elsewhere = {{"args", at.args_hex},
+                 {"ulp_error", number_or_text(other.error_ulp)},
+                 {"reproduce", reproducer(subject, at)}};
+  }
   return {{"function", subject.name()},
           {"type", o.type},
           {"seed", o.seed},
-          {"evaluations", search.evaluations()},
+          {"evaluations", hunts.evaluations()},
           {"args", point.args_hex},
           {"value", values},
           {"reference", exact},
@@ -109,7 +164,12 @@ Json to_json(const SearchOptions& o, const Subject& subject, const FunctionSearc
           {"float_distance", number_or_text(best.distance)},
           {"found_after", best.evaluations},
           {"reproduce", point.args_hex.empty() ? "" : reproducer(subject, point)},
+          {"elsewhere", elsewhere},
           {"mismatches", mismatches}};
+}
+
+std::string text_of(const Json& error) {
+  return error.is_string() ? error.get<std::string>() : fmt::format("{:.6f}", error.get<double>());
 }
 
 void print_text(const Json& found) {
@@ -117,14 +177,17 @@ void print_text(const Json& found) {
     fmt::print("{} {}: no argument with an error in ULP was found\n", found.at("function").get<std::string>(),
                found.at("type").get<std::string>());
   } else {
-    const Json& error = found.at("ulp_error");
     fmt::print("{} {}\n", found.at("function").get<std::string>(), found.at("type").get<std::string>());
-    fmt::print("  largest ULP error   {}\n",
-               error.is_string() ? error.get<std::string>() : fmt::format("{:.6f}", error.get<double>()));
+    fmt::print("  largest ULP error   {}\n", text_of(found.at("ulp_error")));
     fmt::print("  argument            {}\n",
                fmt::join(found.at("args").get<std::vector<std::string>>(), " "));
     fmt::print("  float_distance      {}\n", found.at("float_distance").dump());
     fmt::print("  reproduce           {}\n", found.at("reproduce").get<std::string>());
+  }
+  if (const Json& other = found.at("elsewhere"); !other.is_null()) {
+    fmt::print("  elsewhere           {} away from hard arguments and known worst cases\n",
+               text_of(other.at("ulp_error")));
+    fmt::print("  reproduce           {}\n", other.at("reproduce").get<std::string>());
   }
   fmt::print("  evaluations         {} (found after {})\n", found.at("evaluations").get<std::uint64_t>(),
              found.at("found_after").get<std::uint64_t>());
@@ -134,24 +197,47 @@ void print_text(const Json& found) {
   }
 }
 
-ExitCode run_search(const SearchOptions& o) {
+// A confirmed mismatch, and an error beyond a claim or beyond the limit that was given: what a search was
+// for.
+Verdict judge(const SearchOptions& o, const Subject& subject, const Hunts& hunts, const Json& found) {
+  const SearchBest best = hunts.best();
+  const auto mismatches = hunts.mismatches();
+  if (best.args.empty() && mismatches.empty()) return Standing::nothing_measured;
+  Verdict verdict;
+  for (const auto& [outcome, m] : mismatches) {
+    verdict |= Standing::regression;
+    fmt::print(stderr, "ulpgate: {} {}: a confirmed mismatch, {}: {}\n", subject.name(), o.type,
+               name_of(outcome), reproducer(subject, subject.point(m.args)));
+  }
+  const auto hold = [&](double error_ulp, double limit_ulp, std::string_view what, const Json& at) {
+    const Standing standing = at_most(error_ulp, limit_ulp);
+    if (standing == Standing::pass) return;
+    verdict |= Standing::regression;
+    fmt::print(stderr, "ulpgate: {} {}: off by {:.6g} ULP, {} {}: {}\n", subject.name(), o.type, error_ulp,
+               what, limit_ulp, at.at("reproduce").get<std::string>());
+  };
+  if (!best.args.empty() && subject.info().claimed_ulp)
+    hold(best.error_ulp, *subject.info().claimed_ulp, "claimed", found);
+  if (o.limit_ulp > 0 && !found.at("elsewhere").is_null())
+    hold(hunts.elsewhere->best_error_ulp(), o.limit_ulp, "limit", found.at("elsewhere"));
+  return verdict;
+}
+
+Verdict run_search(const SearchOptions& o) {
   const FunctionInfo& f = function_or_fail(o.function);
   const Subject& subject = subject_or_fail(o.function, o.type);
   if (!can_search(subject)) {
-    throw Failure(ExitCode::bad_input,
+    throw Failure(Standing::bad_input,
                   fmt::format("{} is a special function with whole-numbered arguments: search takes real and "
                               "complex functions",
                               f.name));
   }
-  // What is wrong with the files should be known before the hunt.
-  if (!o.worst_cases.empty()) static_cast<void>(worst_cases_of(o.worst_cases, f, o.type));
-  const CrashPlace place(f.name, o.type, "search");
-  const auto search = make_search(subject, o.seed);
+  const Hunts hunts = make_hunts(o, f, subject);
   const unsigned threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  const bool complete = hunt(o, *search, threads, subject);
-  const SearchBest best = search->best();
+  const bool complete = hunt(o, hunts, threads, subject);
+  const SearchBest best = hunts.best();
   const Point point = best.args.empty() ? Point{} : subject.point(best.args);
-  const Json found = to_json(o, subject, *search, best, point);
+  const Json found = to_json(o, subject, hunts, best, point);
   if (o.json) {
     fmt::print("{}\n", found.dump());
   } else {
@@ -168,8 +254,8 @@ ExitCode run_search(const SearchOptions& o) {
                  offer_worst_case(o.worst_cases, f, o.type, best.args, best.error_ulp));
     }
   }
-  if (!complete) throw Failure(ExitCode::incomplete, "interrupted; what was found so far stands above");
-  return best.args.empty() && search->mismatches().empty() ? ExitCode::incomplete : ExitCode::pass;
+  if (!complete) throw Failure(Standing::incomplete, "interrupted; what was found so far stands above");
+  return judge(o, subject, hunts, found);
 }
 
 }  // namespace
@@ -199,6 +285,10 @@ void add_search_command(CLI::App& app, Action& action) {
       "--worst-cases", o->worst_cases,
       "directory of worst cases: what was found is added to TYPE.txt unless that holds a worse "
       "one of the function");
+  search
+      ->add_option("--limit", o->limit_ulp,
+                   "exit 1 where the error in ULP, away from hard arguments and known worst cases, is larger")
+      ->check(CLI::Range(0.0, 1e300));
   search->add_flag("--json", o->json, "print JSON");
   search->callback([=, &action] { action = [=] { return run_search(*o); }; });
 }

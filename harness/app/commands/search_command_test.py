@@ -4,17 +4,25 @@ import json
 import os
 import pathlib
 import subprocess
+import sys
 
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "harness/app/run"))
+import narrow_bugs  # noqa: E402
+
 ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 WRONG_EXP = os.environ.get("ULPGATE_WRONG_EXP", "")
 
 
-def run(*words, program=ULPGATE):
+def run(*words, program=ULPGATE, env=None):
     done = subprocess.run(
-        [program, *[str(w) for w in words]], capture_output=True, text=True, cwd=ROOT
+        [program, *[str(w) for w in words]],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        env=env,
     )
     return done.returncode, done.stdout, done.stderr
 
@@ -75,6 +83,39 @@ def test_a_planted_defect_is_found():
     found = search("exp", "double", 50000, program=WRONG_EXP)
     assert found["ulp_error"] > 1e4
     assert search("exp", "double", 50000)["ulp_error"] < 0.52
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    return narrow_bugs.build(tmp_path_factory.mktemp("library"))
+
+
+def test_a15_a_confirmed_mismatch_is_exit_1(library):
+    words = ["search", "sin", "double", "--evaluations", 100000, "--json"]
+    assert run(*words)[0] == 0
+    env = narrow_bugs.environment(library, "sin 3 3.5 0")
+    code, out, err = run(*words, env=env)
+    assert code == 1 and "a confirmed mismatch" in err
+    found = json.loads(out)["mismatches"]
+    assert found and found[0]["confirmed"] > 0
+    assert 3 <= float.fromhex(found[0]["args"][0]) <= 3.5
+
+
+def test_a15_known_hard_arguments_hide_no_smaller_error(library):
+    words = ["search", "sin", "double", "--evaluations", 200000, "--json"]
+    words += ["--limit", 5]
+    code, out, err = run(*words)
+    assert code == 0, err
+    right = json.loads(out)
+    assert right["ulp_error"] > 1e3, "at a hard argument"
+    assert 0.5 < right["elsewhere"]["ulp_error"] < 5
+    env = narrow_bugs.environment(library, "sin 3.2 3.5 40")
+    code, out, err = run(*words, env=env)
+    assert code == 1 and "limit 5" in err
+    wrong = json.loads(out)
+    assert wrong["ulp_error"] > 1e3
+    assert wrong["elsewhere"]["ulp_error"] > 39
+    assert 3.2 <= float.fromhex(wrong["elsewhere"]["args"][0]) <= 3.5
 
 
 def test_worst_cases_are_added_once_and_only_if_worse(tmp_path):

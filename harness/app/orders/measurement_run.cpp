@@ -8,8 +8,11 @@
 #include <numeric>
 #include <thread>
 
+#include "harness/app/machine/environment.hpp"
+#include "harness/app/machine/threads.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
+#include "harness/core/watch/heartbeat.hpp"
 #include "reference/types/mpfr_value.hpp"
 
 namespace ulpgate::app {
@@ -31,6 +34,7 @@ class MeasurementRun {
  public:
   MeasurementRun(const MeasurementJob& job, unsigned threads, PieceLog* log)
       : measurements_(job.measurements),
+        names_(job.names),
         threads_(threads),
         log_(log),
         costs_(with_points(job)),
@@ -81,11 +85,12 @@ class MeasurementRun {
 
   void measure(std::size_t i) {
     Measurement& m = *measurements_[i];
-    const ode::StopFlag stop(interrupt_flag());
+    const WorkPlace place(names_[i], "", "");
+    const ode::StopFlag stop(interrupt_flag(), &Heartbeat::mine().steps());
     for (long steps = first_piece_steps; !m.complete();) {
       const auto start = Clock::now();
       const auto before = m.steps_done();
-      const std::string text = m.proceed(steps, stop);
+      const std::string text = in_checked_environment([&] { return m.proceed(steps, stop); });
       const double seconds = seconds_since(start);
       keep({i, seconds, text}, m.steps_done() - before);
       if (seconds < piece_s / 2)
@@ -121,6 +126,7 @@ class MeasurementRun {
   }
 
   const std::vector<std::unique_ptr<Measurement>>& measurements_;
+  const std::vector<std::string>& names_;
   double threads_;
   PieceLog* log_;
   CostModel costs_;
@@ -138,10 +144,9 @@ class MeasurementRun {
 bool run_measurements(const MeasurementJob& job, unsigned threads, PieceLog* log) {
   const InterruptGuard guard;
   MeasurementRun run(job, threads, log);
-  std::vector<std::thread> pool;
-  for (unsigned t = 1; t < threads; ++t) pool.emplace_back([&] { run.work(); });
+  Threads pool(1, threads, [&](unsigned) { run.work(); });
   run.work();
-  for (auto& thread : pool) thread.join();
+  pool.join();
   return run.finish();
 }
 

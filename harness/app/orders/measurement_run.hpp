@@ -15,6 +15,7 @@ namespace ulpgate::app {
 struct MeasurementJob {
   std::string name;  // in the progress bar
   const std::vector<std::unique_ptr<Measurement>>& measurements;
+  std::vector<std::string> names;  // "rk4 kepler double", one a measurement
   // One a measurement, for the progress bar and the order of work: its points, which are steps, are filled in
   // here.
   std::vector<CostModel::Row> costs;

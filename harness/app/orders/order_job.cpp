@@ -27,7 +27,7 @@ std::vector<std::string> select_integrators(const std::string& text) {
   for (const auto& name : chosen) {
     if (std::ranges::find(known, name) == known.end()) unknown_name("integrator", name, known);
   }
-  if (chosen.empty()) throw Failure(ExitCode::bad_input, "--integrators names no integrator");
+  if (chosen.empty()) throw Failure(Standing::bad_input, "--integrators names no integrator");
   auto out = known;
   std::erase_if(out, [&](const auto& name) { return std::ranges::find(chosen, name) == chosen.end(); });
   return out;
@@ -37,11 +37,11 @@ std::vector<std::string> select_problems(const std::string& text, const std::vec
   const auto chosen = text == "all" ? known : split(text, ',');
   for (const auto& name : chosen) {
     if (std::ranges::find(known, name) == known.end()) {
-      throw Failure(ExitCode::bad_input,
+      throw Failure(Standing::bad_input,
                     fmt::format("unknown problem '{}'; there are {}", name, fmt::join(known, ", ")));
     }
   }
-  if (chosen.empty()) throw Failure(ExitCode::bad_input, "--problems names no problem");
+  if (chosen.empty()) throw Failure(Standing::bad_input, "--problems names no problem");
   auto out = known;
   std::erase_if(out, [&](const auto& name) { return std::ranges::find(chosen, name) == chosen.end(); });
   return out;
@@ -64,7 +64,7 @@ double prior_cost_of_step(const ode::IntegratorInfo& info, const RealDescriptor&
 
 OrderJob make_order_job(const OrderOptions& o) {
   if (o.drift_units > (1L << 60) / o.steps_per_unit)
-    throw Failure(ExitCode::bad_input, "--drift times --steps-per-unit: more than 2^60 steps");
+    throw Failure(Standing::bad_input, "--drift times --steps-per-unit: more than 2^60 steps");
   OrderJob job;
   job.types = select_types(o.types);
   const auto integrators = select_integrators(o.integrators);
@@ -93,7 +93,7 @@ OrderJob make_order_job(const OrderOptions& o) {
     }
   }
   if (job.rows.empty()) {
-    throw Failure(ExitCode::incomplete,
+    throw Failure(Standing::incomplete,
                   "no integrator applies to the problem: splitting methods need q'' = a(q)");
   }
   job.plan_text =

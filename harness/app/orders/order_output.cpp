@@ -119,7 +119,7 @@ OrderVerdicts verdicts_from_json(const Json& j, const std::string& place) {
     return {j.at("judged").get<std::size_t>(), j.at("wrong").get<std::vector<std::string>>(),
             j.at("refused").get<std::vector<std::string>>()};
   } catch (const Json::exception& e) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: no verdicts: {}", place, e.what()));
+    throw Failure(Standing::bad_input, fmt::format("{}: no verdicts: {}", place, e.what()));
   }
 }
 

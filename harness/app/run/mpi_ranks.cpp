@@ -91,7 +91,7 @@ std::int64_t MpiRanks::next_order() {
     MPI_Iprobe(0, order_tag, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
     if (there != 0) break;
     if (seconds_since(start) > silence_s)
-      throw Failure(ExitCode::environment, "rank 0 does not answer; the units it has kept are in --out");
+      throw Failure(Standing::environment, "rank 0 does not answer; the units it has kept are in --out");
   }
   std::int64_t order = 0;
   MPI_Recv(&order, 1, MPI_INT64_T, 0, order_tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
@@ -104,14 +104,15 @@ bool MpiRanks::any_busy() const {
 
 void MpiRanks::take_in(const Report& report, UnitExchange& exchange, const RunIdentity& identity) {
   const std::string text = report.text.substr(1);
-  const auto fail = [&](ExitCode code, const std::string& message) {
-    exchange.fail(std::make_exception_ptr(Failure(code, fmt::format("rank {}, {}", report.rank, message))));
+  const auto fail = [&](Standing standing, const std::string& message) {
+    exchange.fail(
+        std::make_exception_ptr(Failure(standing, fmt::format("rank {}, {}", report.rank, message))));
   };
   switch (report.text[0]) {
     case hello: {
       const auto cut = text.find(' ');
       if (const auto other = identity_difference(text.substr(cut + 1), identity)) {
-        fail(ExitCode::bad_input,
+        fail(Standing::bad_input,
              fmt::format("on {}, would not give the bytes of rank 0: {}", text.substr(0, cut), *other));
       }
       break;
@@ -121,7 +122,7 @@ void MpiRanks::take_in(const Report& report, UnitExchange& exchange, const RunId
       const auto done = lines.size() == 1 && lines[0].payload ? unit_from_payload(*lines[0].payload)
                                                               : std::optional<FinishedUnit>();
       if (!done) {
-        fail(ExitCode::environment, "sent a damaged unit");
+        fail(Standing::environment, "sent a damaged unit");
         break;
       }
       exchange.finish(done->position, done->seconds, done->summaries);
@@ -131,11 +132,11 @@ void MpiRanks::take_in(const Report& report, UnitExchange& exchange, const RunId
       exchange.fail(std::make_exception_ptr(ReferenceDisagreement(text)));
       break;
     case failed:
-      fail(ExitCode::environment, text);
+      fail(Standing::environment, text);
       break;
     case bye:
       left_[static_cast<std::size_t>(report.rank)] = true;
-      if (!text.empty()) fail(ExitCode::bad_input, text);
+      if (!text.empty()) fail(Standing::bad_input, text);
       break;
     default:
       break;

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
+#include "harness/app/machine/machine_facts.hpp"
 #include "harness/app/run/timing.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
@@ -18,8 +20,32 @@ namespace {
 
 unsigned threads_of(const PlanOptions& o, const Ranks* ranks) {
   if (ranks == nullptr) return o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  if (o.threads > 1) throw Failure(ExitCode::bad_input, "--threads: a rank is one thread; start more ranks");
+  if (o.threads > 1) throw Failure(Standing::bad_input, "--threads: a rank is one thread; start more ranks");
   return 1;
+}
+
+// What the units of a plan take in memory, in bytes: each in the plan, in the queue and in the checkpoint.
+double bytes_of_units(const PlanRequest& request) {
+  constexpr double bytes_a_unit = 100;
+  double units = 0;
+  for (const Stratum s : request.strata) {
+    if (!is_drawn(s)) continue;
+    const auto count = static_cast<double>(drawn_count(request.kind, s, request.samples, request.strata));
+    units += std::ceil(count / static_cast<double>(unit_size_of(s)));
+  }
+  return units * static_cast<double>(request.subjects.size() * request.types.size()) * bytes_a_unit;
+}
+
+// A plan that no memory holds is refused before any is asked for.
+void refuse_large(const PlanRequest& request) {
+  constexpr double most_gb = 4;
+  const double gb = bytes_of_units(request) / 1e9;
+  if (gb <= most_gb) return;
+  throw Failure(
+      Standing::bad_input,
+      fmt::format("--samples {}: the units of this plan alone need {:.3g} GB of memory, more than {:g} GB; "
+                  "--shard does not divide that; --allow-large tries it",
+                  request.samples, gb, most_gb));
 }
 
 }  // namespace
@@ -45,6 +71,9 @@ void add_plan_options(CLI::App& verb, PlanOptions& o, const std::string& samples
                                "go on with a run that was interrupted or killed; a new one starts");
   verb.add_flag("--overwrite", o.overwrite, "write over the records of another plan, or a partial run")
       ->excludes(resume);
+  verb.add_flag("--allow-large", o.allow_large, "run a plan whose units need more than 4 GB of memory");
+  verb.add_flag("--dry-run", o.dry_run,
+                "print the plan's hash, rows, points and units as JSON, and measure nothing");
   verb.add_flag("--json", o.json, "print the records as well");
 }
 
@@ -56,49 +85,72 @@ PlanRequest request_of(const PlanOptions& o) {
   request.strata = select_strata(o.kind, o.strata);
   request.samples = o.samples;
   request.seed = o.seed;
+  if (!o.allow_large) refuse_large(request);
   return request;
 }
 
-ExitCode run_and_write(const Plan& plan, const PlanOptions& o, Ranks* ranks, const PlanVerdict& verdict) {
+namespace {
+
+Verdict print_plan(const Plan& plan) {
+  std::uint64_t points = 0;
+  for (const auto& unit : plan.units()) points += unit.last - unit.first;
+  const Json j = {{"plan", plan.hash()},
+                  {"rows", plan.rows().size()},
+                  {"points", points},
+                  {"units", plan.units().size()}};
+  fmt::print("{}\n", j.dump());
+  return Standing::pass;
+}
+
+}  // namespace
+
+Verdict run_and_write(const Plan& plan, const PlanOptions& o, Ranks* ranks, const PlanVerdict& verdict) {
   if (plan.rows().empty())
-    throw Failure(ExitCode::incomplete, "the selection holds no samples: nothing to measure");
-  if (o.out.empty()) throw Failure(ExitCode::bad_input, "--out DIR is required");
+    throw Failure(Standing::incomplete, "the selection holds no samples: nothing to measure");
+  if (o.out.empty()) throw Failure(Standing::bad_input, "--out DIR is required");
+  if (o.dry_run) return print_plan(plan);
   const bool functions = o.kind == SubjectKind::function;
   const char* file = functions ? math_records_file : kernel_records_file;
   const Shard shard = parse_shard(o.shard);
   const unsigned threads = threads_of(o, ranks);
   const auto mode = o.reference == "full" ? ReferenceMode::full : ReferenceMode::screened;
-  const RunIdentity identity{functions ? "math" : "kernels", plan.hash(), shard.text(), machine_facts()};
+  const RunIdentity identity{
+      functions ? "math" : "kernels", plan.hash(), {shard.text()}, "", machine_facts()};
   if (ranks != nullptr && !ranks->writes()) {
     help_plan(plan, shard, mode, identity, *ranks);
-    return ExitCode::pass;
+    return Standing::pass;
   }
-  const std::filesystem::path out = o.out;
-  make_directory(out);
-  if (o.resume && is_finished(out, plan.hash(), shard.text())) {
-    fmt::print(stderr, "ulpgate: {} is complete already\n", out.string());
-    return verdict({read_records(out).records, true, {}});
+  const OutputDirectory out(o.out, identity, partial_run(o.resume, o.overwrite));
+  if (o.resume && out.is_finished()) {
+    RecordSet set = read_finished_records(out.path(), plan);
+    fmt::print(stderr, "ulpgate: {} is complete already\n", o.out);
+    return verdict({std::move(set.records), true, {}});
   }
-  guard_output(out, plan.hash(), o.overwrite);
-  Checkpoint checkpoint(out, identity, partial_run(o.resume, o.overwrite));
+  if (shard.index >= plan.units().size()) {
+    throw Failure(Standing::nothing_measured,
+                  fmt::format("--shard {}: nothing to measure: the plan has {} units, shards from {} on none",
+                              shard.text(), plan.units().size(), plan.units().size()));
+  }
+  const auto used_threads = ranks != nullptr ? static_cast<unsigned>(ranks->count()) : threads;
+  Json context = make_context(plan, {shard.text()}, used_threads, false);
+  if (functions) context["reference"] = o.reference;
+  Checkpoint checkpoint(out);
+  out.begin(context);
   const RunResult result = run_plan(plan, shard, threads, mode, checkpoint, ranks);
   const std::string text = records_text(result.records);
-  write_file(out / file, text);
-  Json context =
-      make_context(plan, {shard.text()}, ranks != nullptr ? static_cast<unsigned>(ranks->count()) : threads,
-                   result.complete && shard.count == 1);
-  if (functions) context["reference"] = o.reference;
+  out.write(file, text);
   const bool timed = o.timing == "on" || (o.timing == "auto" && shard.count == 1);
-  if (timed && result.complete) write_file(out / "timing.jsonl", timing_text(measure_times(plan.request())));
-  write_context(out, context, result.complete);
+  if (timed && result.complete) out.write("timing.jsonl", timing_text(measure_times(plan.request())));
+  context["complete"] = result.complete && shard.count == 1;
+  out.finish(context, result.complete);
   if (result.complete) checkpoint.remove();
   if (o.json) fmt::print("{}", text);
   if (!result.complete) {
-    throw Failure(ExitCode::incomplete,
-                  fmt::format("interrupted; what was done is in {}; --resume goes on", out.string()));
+    throw Failure(Standing::incomplete,
+                  fmt::format("interrupted; what was done is in {}; --resume goes on", o.out));
   }
-  fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(), (out / file).string(),
-             plan.hash());
+  fmt::print(stderr, "ulpgate: {} records in {}, plan {}\n", result.records.size(),
+             (out.path() / file).string(), plan.hash());
   return verdict(result);
 }
 

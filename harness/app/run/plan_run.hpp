@@ -28,6 +28,8 @@ struct PlanOptions {
   bool resume = false;
   bool overwrite = false;
   bool json = false;
+  bool dry_run = false;  // say what would be done
+  bool allow_large = false;
 };
 
 // Adds the options; `samples` says what --samples counts.
@@ -37,11 +39,11 @@ void add_plan_options(CLI::App& verb, PlanOptions& o, const std::string& samples
 [[nodiscard]] PlanRequest request_of(const PlanOptions& o);
 
 // What the records say: told people on stderr, and the exit code.
-using PlanVerdict = std::function<ExitCode(const RunResult& result)>;
+using PlanVerdict = std::function<Verdict(const RunResult& result)>;
 
 // Runs the plan, or goes on with it, writes records, times and context; a Failure with exit code 3 after an
 // interrupt.  The verdict is asked once, about what a directory that is complete already holds as well.
-[[nodiscard]] ExitCode run_and_write(const Plan& plan, const PlanOptions& o, Ranks* ranks,
-                                     const PlanVerdict& verdict);
+[[nodiscard]] Verdict run_and_write(const Plan& plan, const PlanOptions& o, Ranks* ranks,
+                                    const PlanVerdict& verdict);
 
 }  // namespace ulpgate::app

@@ -11,11 +11,13 @@
 #include <mutex>
 #include <thread>
 
-#include "harness/app/shell/crash_report.hpp"
+#include "harness/app/machine/environment.hpp"
+#include "harness/app/machine/threads.hpp"
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
 #include "harness/core/judging/reference_disagreement.hpp"
+#include "harness/core/watch/heartbeat.hpp"
 
 namespace ulpgate::app {
 
@@ -87,7 +89,7 @@ class Collector {
       try {
         std::rethrow_exception(failure_);
       } catch (const ReferenceDisagreement& e) {
-        throw Failure(ExitCode::regression, e.what());
+        throw Failure(Standing::regression, e.what());
       }
     }
     UnitSummaries result;
@@ -159,8 +161,9 @@ class PlanUnits {
   }
   [[nodiscard]] std::vector<Summary> evaluate(const WorkUnit& unit) const {
     const PlanRow& row = plan_.rows()[unit.row];
-    const CrashPlace place(row.subject->name(), row.subject->type().token, name_of(row.source.stratum));
-    return row.subject->evaluate(row.source, unit.first, unit.last, mode_, *hints_[unit.row]);
+    const WorkPlace place(row.subject->name(), row.subject->type().token, name_of(row.source.stratum));
+    return in_checked_environment(
+        [&] { return row.subject->evaluate(row.source, unit.first, unit.last, mode_, *hints_[unit.row]); });
   }
   [[nodiscard]] std::array<std::uint64_t, stage_count> decided() const {
     std::array<std::uint64_t, stage_count> sum{};
@@ -209,15 +212,14 @@ UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads
     }
   };
   // Ranks are takers by their number, threads count from behind.
-  std::vector<std::thread> pool;
   const Taker last = std::numeric_limits<Taker>::max();
-  for (unsigned t = ranks != nullptr ? 0 : 1; t < threads; ++t) pool.emplace_back(work, last - t);
+  Threads pool(ranks != nullptr ? 0U : 1U, threads, [&](unsigned t) { work(last - t); });
   if (ranks != nullptr) {
     ranks->serve(exchange, checkpoint.identity());
   } else {
     work(last);
   }
-  for (auto& t : pool) t.join();
+  pool.join();
   return collector.take();
 }
 

@@ -5,10 +5,10 @@
 #include <chrono>
 #include <memory>
 
-#include "harness/app/shell/crash_report.hpp"
 #include "harness/app/shell/progress.hpp"
 #include "harness/app/store/records.hpp"
 #include "harness/core/subject/registry.hpp"
+#include "harness/core/watch/heartbeat.hpp"
 
 namespace ulpgate::app {
 
@@ -18,7 +18,10 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_of(const TimedBatch& batch, std::size_t count, int rounds) {
   const auto start = Clock::now();
-  for (int i = 0; i < rounds; ++i) batch(count);
+  for (int i = 0; i < rounds; ++i) {
+    Heartbeat::mine().beat(WorkPhase::none);
+    batch(count);
+  }
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -47,7 +50,7 @@ std::vector<TimingRecord> measure_times(const PlanRequest& request) {
   Progress progress("timing");
   for (const auto& token : request.types) {
     for (const auto& name : request.subjects) {
-      const CrashPlace place(name, token, "timing");
+      const WorkPlace place(name, token, "timing");
       records.push_back(measure(name, token, find_subject(name, token)->timed_batch(batch_size)));
       progress.update(static_cast<double>(records.size()),
                       static_cast<double>(request.types.size() * request.subjects.size()));

@@ -28,7 +28,8 @@ void add_scene_compare_command(CLI::App& scene, Action& action) {
       },
       [o, own_constants] {
         const auto constants = *own_constants ? dem::Constants::own : dem::Constants::from_text;
-        return run_batch(make_task(*o), {constants, o->json});
+        return run_batch(make_task(*o, "scene compare", *own_constants ? " own constants" : ""),
+                         {constants, o->json});
       });
 }
 

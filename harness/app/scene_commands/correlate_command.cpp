@@ -29,7 +29,7 @@ void add_scene_correlate_command(CLI::App& scene, Action& action) {
       },
       [o, reference] {
         (void)type_or_fail(*reference);
-        SceneTask task = make_task(*o);
+        SceneTask task = make_task(*o, "scene correlate", " against " + *reference);
         task.records.series = true;
         return correlate_scene(task.job, {task.types, *reference, o->json}, task.records);
       });

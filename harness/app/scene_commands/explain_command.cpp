@@ -63,9 +63,9 @@ void add_scene_explain_command(CLI::App& scene, Action& action) {
         add_threads_option(verb, *o);
       },
       [o] {
-        const SceneTask task = make_task(*o);
+        const SceneTask task = make_task(*o, "scene explain");
         for (const auto& token : task.types) explain(token, task.job);
-        return ExitCode::pass;
+        return Standing::pass;
       });
 }
 

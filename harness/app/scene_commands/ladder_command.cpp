@@ -13,13 +13,13 @@ namespace ulpgate::app {
 
 namespace {
 
-ExitCode ladder(const std::string& token, const SceneJob& job) {
-  const RealDescriptor& type = type_or_fail(token);
+// Double's digits and those that only guard them tell nothing.
+bool has_ladder(const std::string& token) {
+  return type_or_fail(token).format.precision > 64;
+}
+
+Verdict ladder(const std::string& token, const SceneJob& job) {
   const std::string& name = job.loaded.scene.name;
-  if (type.format.precision <= 64) {
-    fmt::print("{} in {}: the ladder needs a type of more digits than double\n", name, token);
-    return ExitCode::pass;
-  }
   const auto engine = engine_of(token, dem::Level::own, job);
   const auto found = short_constants(*engine);
   for (const auto& constant : found) {
@@ -31,9 +31,9 @@ ExitCode ladder(const std::string& token, const SceneJob& job) {
     fmt::print("{} in {}: the double {} becomes a constant of the start state: good to 16 digits only\n",
                name, token, x);
   }
-  if (!found.empty() || !doubles.empty()) return ExitCode::regression;
+  if (!found.empty() || !doubles.empty()) return Standing::regression;
   fmt::print("{} in {}: every constant fills its precision\n", name, token);
-  return ExitCode::pass;
+  return Standing::pass;
 }
 
 }  // namespace
@@ -46,10 +46,20 @@ void add_scene_ladder_command(CLI::App& scene, Action& action) {
       "  ulpgate scene ladder pendulum3 --types mpfr62 --set mass=yade    # exit 1",
       o, [o](CLI::App& verb) { add_model_options(verb, *o); },
       [o] {
-        const SceneTask task = make_task(*o);
-        ExitCode code = ExitCode::pass;
-        for (const auto& token : task.types) code = std::max(code, ladder(token, task.job));
-        return code;
+        const SceneTask task = make_task(*o, "scene ladder");
+        Verdict verdict;
+        std::size_t judged = 0;
+        for (const auto& token : task.types) {
+          if (!has_ladder(token)) {
+            fmt::print("{} in {}: the ladder needs a type of more digits than double\n",
+                       task.job.loaded.scene.name, token);
+            continue;
+          }
+          verdict |= ladder(token, task.job);
+          ++judged;
+        }
+        if (judged == 0) verdict |= Standing::nothing_measured;
+        return verdict;
       });
 }
 

@@ -62,7 +62,7 @@ std::string scene_in(const std::vector<std::string>& words) {
 }
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw Failure(ExitCode::bad_input, message);
+  throw Failure(Standing::bad_input, message);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ void add_scene_run_command(CLI::App& scene, Action& action) {
         add_json_option(verb, *o);
       },
       [o] {
-        return run_batch(make_task(*o), {std::nullopt, o->json});
+        return run_batch(make_task(*o, "scene run"), {std::nullopt, o->json});
       });
 }
 

@@ -61,21 +61,29 @@ FinishedRun run_one(const std::string& token, const SceneTask& task, const Batch
 }
 
 void write_records(const SceneTask& task, const std::string& text, bool complete) {
-  const std::filesystem::path& out = task.records.out;
-  write_file(out / scene_records_file, text);
-  const Json context = make_scene_context(task.job.plan, task.job.plan_text, task.types,
-                                          static_cast<unsigned>(task.job.threads), complete);
-  write_file(out / "context.json", context.dump(2) + "\n");
+  const OutputDirectory& out = *task.records.directory;
+  out.write(scene_records_file, text);
+  Json context = task.records.context;
+  context["complete"] = complete;
+  out.finish(std::move(context), complete);
 }
 
 }  // namespace
 
-ExitCode run_batch(const SceneTask& task, const BatchRequest& batch) {
+Verdict run_batch(const SceneTask& task, const BatchRequest& batch) {
   const std::filesystem::path& out = task.records.out;
   std::string text;
   bool complete = true;
+  Verdict verdict;
   for (const auto& token : task.types) {
     const FinishedRun run = run_one(token, task, batch);
+    if (run.diverged) {
+      // Told, and no row of the records: the other types go on.
+      if (!batch.json) print_divergence(run.divergence);
+      fmt::print(stderr, "ulpgate: {}\n", *run.diverged);
+      verdict |= Standing::not_finite;
+      continue;
+    }
     const Json row = scene_row(run, token, task.job);
     if (!batch.json) {
       print_row(row, task.job, *run.engine);
@@ -87,15 +95,15 @@ ExitCode run_batch(const SceneTask& task, const BatchRequest& batch) {
     if (!complete) break;
   }
   if (batch.json) fmt::print("{}", text);
-  if (!out.empty()) write_records(task, text, complete);
+  if (!out.empty()) write_records(task, text, complete && verdict.passes());
   if (!complete) {
-    throw Failure(ExitCode::incomplete,
+    throw Failure(Standing::incomplete,
                   out.empty()     ? "interrupted"
                   : batch.compare ? "interrupted; what was done is in " + out.string()
                                   : "interrupted; go on with --resume, what was done is in " + out.string());
   }
   remove_checkpoints(out);
-  return ExitCode::pass;
+  return verdict;
 }
 
 }  // namespace ulpgate::app

@@ -15,6 +15,6 @@ struct BatchRequest {
 
 // Writes scenes.jsonl and context.json where the task has a directory.  Throws a Failure of exit 3 where
 // Ctrl-C ended it, with what was done written.
-[[nodiscard]] ExitCode run_batch(const SceneTask& task, const BatchRequest& batch);
+[[nodiscard]] Verdict run_batch(const SceneTask& task, const BatchRequest& batch);
 
 }  // namespace ulpgate::app

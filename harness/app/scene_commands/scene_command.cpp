@@ -24,7 +24,7 @@ void add_scene_command(CLI::App& app, Action& action) {
     const auto chosen = scene->get_subcommands();
     if (!chosen.empty() && words.empty()) return;
     const std::string verb = chosen.empty() ? "" : chosen.front()->get_name();
-    action = [words, verb]() -> ExitCode { refuse_words_before_verb(words, verb); };
+    action = [words, verb]() -> Verdict { refuse_words_before_verb(words, verb); };
   });
 }
 

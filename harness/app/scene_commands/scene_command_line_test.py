@@ -11,7 +11,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 VERBS = "run explain compare ladder correlate speed".split()
-MODEL = {"--types", "--set", "--dt", "--help"}
+MODEL = {"--types", "--set", "--dt", "--allow-large", "--help"}
 LENGTH = {"--integrator", "--until", "--steps", "--threads", "--all-parts", "--json"}
 RECORD = {"--out", "--record", "--series", "--snapshots", "--vtk", "--overwrite"}
 CHECKPOINTS = {"--resume", "--checkpoint-seconds"}
@@ -24,9 +24,7 @@ OPTIONS = {
     "speed": MODEL | LENGTH | {"--out", "--repeats"},
 }
 EVERY = sorted(set().union(*OPTIONS.values()) - {"--help"})
-FLAGS = (
-    "--all-parts --json --record --series --vtk --overwrite --resume --own-constants"
-)
+FLAGS = "--allow-large --all-parts --json --record --series --vtk --overwrite --resume --own-constants"
 
 
 def run(*words):
@@ -115,7 +113,7 @@ BAD_VALUES = [
     (["--checkpoint-seconds", "5"], "--checkpoint-seconds", "--out"),
     (["--own-constants"], "--own-constants", "scene compare"),
     (["--out", ""], "--out", "''"),
-    (["--types", ""], "--types", "names no type"),
+    (["--types", ""], "--types", "''"),
     (["--threads", "0"], "--threads", "0"),
 ]
 

@@ -2,10 +2,12 @@
 #include "harness/app/scene_commands/scene_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "harness/app/machine/machine_facts.hpp"
 #include "harness/app/scene_commands/old_spellings.hpp"
-#include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
+#include "harness/app/store/context.hpp"
 
 namespace ulpgate::app {
 
@@ -22,7 +24,7 @@ CLI::Option* add_text(CLI::App& verb, const std::string& name, std::optional<std
 
 void add_scene_verb(CLI::App& scene, Action& action, const std::string& name, const std::string& purpose,
                     const std::string& examples, const std::shared_ptr<SceneOptions>& o,
-                    const std::function<void(CLI::App&)>& add_options, const std::function<ExitCode()>& run) {
+                    const std::function<void(CLI::App&)>& add_options, const std::function<Verdict()>& run) {
   auto* verb = scene.add_subcommand(name, purpose);
   verb->footer("Examples:\n" + examples);
   verb->allow_extras();
@@ -33,7 +35,12 @@ void add_scene_verb(CLI::App& scene, Action& action, const std::string& name, co
     const auto words = verb->remaining();
     action = [words, name, o, run] {
       refuse_unknown_words(name, o->scene.name, words);
-      return run();
+      try {
+        return run();
+      } catch (const scenes::SceneFault& fault) {
+        // Pairs that come to be while it runs.
+        throw scene_failure(o->scene.name, fault);
+      }
     };
   });
 }
@@ -44,6 +51,8 @@ void add_model_options(CLI::App& verb, SceneOptions& o) {
                   "key=value, again for another: damping=5e-3, mass=yade, a constant of the scene ...")
       ->allow_extra_args(false);
   add_text(verb, "--dt", o.scene.dt, "time step, s");
+  verb.add_flag("--allow-large", o.scene.allow_large,
+                "take a scene of more memory, steps or records than a run takes without being asked");
 }
 
 void add_integrator_option(CLI::App& verb, SceneOptions& o) {
@@ -105,15 +114,22 @@ void add_json_option(CLI::App& verb, SceneOptions& o) {
   verb.add_flag("--json", o.json, "print the records instead of text");
 }
 
-SceneTask make_task(SceneOptions o) {
+SceneTask make_task(SceneOptions o, const std::string& verb, const std::string& beside) {
   let_waiting_threads_sleep(o.scene.threads);
   o.scene.energy = o.record || o.series;
   o.records.series = o.record || o.series;
   o.records.out = o.out;
   SceneTask task{make_job(o.scene), o.records, select_types(o.types)};
   task.records.trajectory = o.record && task.job.loaded.scene.records("angles");
-  if (!o.out.empty()) make_directory(o.records.out);
-  guard_checkpoints(o.records.out, o.records.resume, o.records.overwrite);
+  check_job(task.job, task.types);
+  if (o.out.empty()) return task;
+  RunIdentity identity{verb, task.job.plan, {Shard().text()}, "", machine_facts()};
+  // Whoever asks for no verb adds to what is there.
+  if (!verb.empty()) identity.selection = fmt::format("{}{}", fmt::join(task.types, ","), beside);
+  task.records.directory = std::make_shared<OutputDirectory>(
+      o.records.out, std::move(identity), partial_run(o.records.resume, o.records.overwrite));
+  task.records.context = make_scene_context(task.job.plan, task.job.plan_text, task.types,
+                                            static_cast<unsigned>(task.job.threads), false);
   return task;
 }
 

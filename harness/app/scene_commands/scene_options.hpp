@@ -27,9 +27,9 @@ struct SceneOptions {
 // taken by the verb: words that it does not take are refused before.
 void add_scene_verb(CLI::App& scene, Action& action, const std::string& name, const std::string& purpose,
                     const std::string& examples, const std::shared_ptr<SceneOptions>& o,
-                    const std::function<void(CLI::App&)>& add_options, const std::function<ExitCode()>& run);
+                    const std::function<void(CLI::App&)>& add_options, const std::function<Verdict()>& run);
 
-// --types, --set, --dt: every verb has them.
+// --types, --set, --dt, --allow-large: every verb has them.
 void add_model_options(CLI::App& verb, SceneOptions& o);
 // --integrator
 void add_integrator_option(CLI::App& verb, SceneOptions& o);
@@ -56,8 +56,8 @@ struct SceneTask {
   RecordRequest records;
   std::vector<std::string> types;
 };
-// Makes the job, and the directory of the records; threads that wait are made to sleep.  Throws a Failure
-// that names the option.
-[[nodiscard]] SceneTask make_task(SceneOptions o);
+// Makes the job, and the directory of the records, which is of `verb` and of what it asks beside the scene;
+// threads that wait are made to sleep.  Throws a Failure that names the option.
+[[nodiscard]] SceneTask make_task(SceneOptions o, const std::string& verb, const std::string& beside = "");
 
 }  // namespace ulpgate::app

@@ -44,6 +44,9 @@ Repeats repeats_of(const std::string& token, const SceneJob& job, unsigned repea
     done.rates.push_back(static_cast<double>(job.steps) /
                          std::chrono::duration<double>(Clock::now() - start).count());
     done.memory_bytes = engine->memory_bytes();
+    // The time of a step that computes with NaN is not that of the scene.
+    if (const auto lost = finite_watch(token, dem::Level::own, job).look(*engine))
+      throw Failure(Standing::not_finite, diverged_text(job, token, *lost));
   }
   return done;
 }
@@ -81,7 +84,7 @@ void print_row(const Json& row) {
           : "");
 }
 
-ExitCode measure(const SceneTask& task, unsigned repeats, bool json) {
+Verdict measure(const SceneTask& task, unsigned repeats, bool json) {
   std::vector<Json> rows;
   double of_double = 0;
   // Ctrl-C ends the repeats in hand; what is done is still reported.
@@ -99,9 +102,9 @@ ExitCode measure(const SceneTask& task, unsigned repeats, bool json) {
     if (!json) print_row(row);
   }
   if (json) fmt::print("{}", text);
-  if (!task.records.out.empty()) write_file(task.records.out / "timing.jsonl", text);
-  if (interrupted()) throw Failure(ExitCode::incomplete, "interrupted");
-  return ExitCode::pass;
+  if (!task.records.out.empty()) task.records.directory->write("timing.jsonl", text);
+  if (interrupted()) throw Failure(Standing::incomplete, "interrupted");
+  return Standing::pass;
 }
 
 }  // namespace
@@ -130,7 +133,7 @@ void add_scene_speed_command(CLI::App& scene, Action& action) {
       [o, repeats] {
         // Only times are written: checkpoints of a run in the same directory stay.
         o->records.resume = true;
-        return measure(make_task(*o), *repeats, o->json);
+        return measure(make_task(*o, ""), *repeats, o->json);
       });
 }
 

@@ -50,7 +50,7 @@ SceneJob halved(const SceneJob& job) {
   SceneJob half = job;
   const std::string half_dt = "(" + job.loaded.scene.dt + ")/2";
   if (const auto error = scenes::apply_override(half.loaded.scene, "dt=" + half_dt))
-    throw Failure(ExitCode::bad_input, error->text());
+    throw Failure(Standing::bad_input, error->text());
   half.steps *= 2;
   half.record_every *= 2;
   half.snapshot_steps.clear();
@@ -85,19 +85,26 @@ void print_truth(const std::string& token, const Truth& t, const std::string& li
 
 }  // namespace
 
-ExitCode correlate_scene(const SceneJob& job, const CorrelationRequest& c, const RecordRequest& records) {
+Verdict correlate_scene(const SceneJob& job, const CorrelationRequest& c, const RecordRequest& records) {
   const std::filesystem::path& out = records.out;
   if (job.record_every == 0)
-    throw Failure(ExitCode::bad_input, fmt::format("{}: a correlation needs run.record_every in the scene",
+    throw Failure(Standing::bad_input, fmt::format("{}: a correlation needs run.record_every in the scene",
                                                    job.loaded.scene.name));
   if (!job.loaded.scene.records("angles"))
-    throw Failure(ExitCode::bad_input,
+    throw Failure(Standing::bad_input,
                   fmt::format("{}: a correlation needs a chain of bodies whose angles are recorded: record = "
                               "[\"angles\"]",
                               job.loaded.scene.name));
+  const std::uint64_t planned = job.steps / job.record_every + 1;
+  if (planned < rule.chunk)
+    throw Failure(
+        Standing::nothing_measured,
+        fmt::format("{}: {} records are fewer than the {} that are correlated at a time: nothing to "
+                    "measure; take more steps",
+                    job.loaded.scene.name, planned, rule.chunk));
   const auto stop_if_interrupted = [&] {
     if (interrupted())
-      throw Failure(ExitCode::incomplete, out.empty() ? "interrupted" : "interrupted; go on with --resume");
+      throw Failure(Standing::incomplete, out.empty() ? "interrupted" : "interrupted; go on with --resume");
   };
   const InterruptGuard guard;
   std::string scene_rows;
@@ -114,6 +121,7 @@ ExitCode correlate_scene(const SceneJob& job, const CorrelationRequest& c, const
     RecordRequest wanted = records;
     wanted.trajectory = records.trajectory && suffix.empty();
     FinishedRun run = run_to_end(request, what, wanted);
+    if (run.diverged) throw Failure(Standing::not_finite, *run.diverged);
     stop_if_interrupted();
     return run;
   };
@@ -166,15 +174,15 @@ ExitCode correlate_scene(const SceneJob& job, const CorrelationRequest& c, const
     add(token, c.reference, t, limit);
   }
   if (!out.empty()) {
-    write_file(out / "correlation.jsonl", text);
-    write_file(out / scene_records_file, scene_rows);
-    const Json context =
-        make_scene_context(job.plan, job.plan_text, c.types, static_cast<unsigned>(job.threads), true);
-    write_file(out / "context.json", context.dump(2) + "\n");
+    records.directory->write("correlation.jsonl", text);
+    records.directory->write(scene_records_file, scene_rows);
+    Json context = records.context;
+    context["complete"] = true;
+    records.directory->finish(std::move(context), true);
     remove_checkpoints(out);
   }
   if (c.json) fmt::print("{}", text);
-  return ExitCode::pass;
+  return Standing::pass;
 }
 
 }  // namespace ulpgate::app

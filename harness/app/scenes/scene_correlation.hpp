@@ -18,7 +18,7 @@ struct CorrelationRequest {
 // Runs the scene in the reference type, at RealHP<4> and at half the step, then in every other type; prints
 // and, with records.out, writes t_s (s) of each and what limits it.  Throws a Failure where the scene records
 // no angles, or where Ctrl-C ended it.
-[[nodiscard]] ExitCode correlate_scene(const SceneJob& job, const CorrelationRequest& c,
-                                       const RecordRequest& records);
+[[nodiscard]] Verdict correlate_scene(const SceneJob& job, const CorrelationRequest& c,
+                                      const RecordRequest& records);
 
 }  // namespace ulpgate::app

@@ -14,6 +14,22 @@ namespace ulpgate::app {
 
 namespace {
 
+constexpr std::uintmax_t most_scene_bytes = std::uintmax_t{64} << 20U;
+
+// A device may never end, and a directory reads as nothing.
+std::string scene_file(const std::string& name) {
+  const auto refuse = [&](const std::string& why) { throw Failure(Standing::bad_input, name + ": " + why); };
+  std::error_code error;
+  const auto status = std::filesystem::status(name, error);
+  if (std::filesystem::is_directory(status)) refuse("is a directory, not the TOML file of a scene");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    refuse("is no regular file, as the TOML file of a scene must be");
+  const std::uintmax_t size = std::filesystem::file_size(name, error);
+  if (!error && size > most_scene_bytes)
+    refuse(fmt::format("has {} bytes; a scene has {} at most", size, most_scene_bytes));
+  return read_file(name);
+}
+
 std::string text_of(const std::string& name, std::string& file) {
   for (const auto& scene : builtin_scenes()) {
     if (name == scene.name) {
@@ -22,7 +38,7 @@ std::string text_of(const std::string& name, std::string& file) {
     }
   }
   file = name;
-  if (name.ends_with(".toml") || std::filesystem::exists(name)) return read_file(name);
+  if (name.ends_with(".toml") || std::filesystem::exists(name)) return scene_file(name);
   std::vector<std::string> known;
   for (const auto& scene : builtin_scenes()) known.emplace_back(scene.name);
   unknown_name("scene", name, known);
@@ -38,12 +54,12 @@ LoadedScene load_scene(const std::string& name, const std::vector<std::string>& 
   if (!result.errors.empty()) {
     std::string message;
     for (const auto& e : result.errors) message += (message.empty() ? "" : "\nulpgate: ") + e.text();
-    throw Failure(ExitCode::bad_input, message);
+    throw Failure(Standing::bad_input, message);
   }
   loaded.scene = std::move(*result.scene);
   for (const auto& text : overrides) {
     if (const auto error = scenes::apply_override(loaded.scene, text))
-      throw Failure(ExitCode::bad_input, fmt::format("--set {}: {}", text, error->text()));
+      throw Failure(Standing::bad_input, fmt::format("--set {}: {}", text, error->text()));
     loaded.text += "\n# " + text;
   }
   return loaded;

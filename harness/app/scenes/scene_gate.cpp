@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "harness/app/budgets/toml_files.hpp"
+#include "harness/app/reading/line_kinds.hpp"
 #include "harness/app/shell/failure.hpp"
-#include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/records.hpp"
 
@@ -13,35 +17,37 @@ namespace ulpgate::app {
 
 namespace {
 
-constexpr const char* correlations_file = "correlation.jsonl";
+using SceneRowBudgets = SceneBudgets::mapped_type;
+using Limit = std::optional<double> SceneBudget::*;
+constexpr std::pair<const char*, Limit> limits[] = {
+    {"t_s", &SceneBudget::t_s},
+    {"max_energy_error", &SceneBudget::max_energy_error},
+    {"max_energy_error_raw", &SceneBudget::max_energy_error_raw}};
 
-std::vector<Json> read_rows(const std::filesystem::path& file) {
-  std::vector<Json> rows;
-  const auto lines = read_lines(file);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    Json j = Json::parse(lines[i], nullptr, false);
-    for (const char* key : {"scene", "type", "dt", "variant"}) {
-      if (!j.is_object() || !j.contains(key) || !j[key].is_string())
-        throw Failure(ExitCode::bad_input,
-                      fmt::format("{}:{}: no record of a scene, or a torn one", file.string(), i + 1));
-    }
-    rows.push_back(std::move(j));
-  }
-  return rows;
+[[noreturn]] void bad(const std::string& place, const std::string& what) {
+  throw Failure(Standing::bad_input, fmt::format("{}: {}", place, what));
 }
 
-std::optional<double> number_at(const Json& j, const char* key) {
-  const auto it = j.find(key);
-  if (it == j.end()) return std::nullopt;
-  // A number that is not finite is written as null.
+// A text of a row; empty where it has none.
+std::string text_of(const PlacedRow& row, const char* key) {
+  const auto it = row.row.find(key);
+  if (it == row.row.end()) return "";
+  return it->is_string() ? it->get<std::string>() : it->dump();
+}
+
+std::optional<double> number_at(const PlacedRow& row, const char* key) {
+  const auto it = row.row.find(key);
+  if (it == row.row.end()) return std::nullopt;
+  // Null or a word stands for what is no finite number.
   return it->is_number() ? it->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string quoted(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '"' || c == '\\' ? std::string("\\") + c : c == '\n' ? " " : std::string(1, c);
-  return '"' + out + '"';
+// Whether a correlation is that of the run: all that tells two runs of one plan apart.
+bool is_of_run(const PlacedRow& correlation, const PlacedRow& run) {
+  for (const char* key : {"scene", "type", "dt", "variant", "integrator"})
+    if (text_of(correlation, key) != text_of(run, key)) return false;
+  const auto steps = correlation.row.find("steps");
+  return steps == correlation.row.end() || *steps == run.row.at("steps");
 }
 
 // Expressions hold brackets and stars, which a shell would take.
@@ -57,33 +63,34 @@ bool has_scene_records(const std::filesystem::path& directory) {
 }
 
 std::vector<SceneMeasurement> read_scene_measurements(const std::filesystem::path& directory) {
+  const SceneRows rows = read_scene_rows(directory);
+  if (!rows.context.at("complete").get<bool>())
+    throw Failure(Standing::incomplete, fmt::format("{}: the run is not complete", directory.string()));
   std::vector<SceneMeasurement> measured;
-  std::vector<Json> correlations;
-  if (std::filesystem::exists(directory / correlations_file))
-    correlations = read_rows(directory / correlations_file);
-  for (const Json& j : read_rows(directory / scene_records_file)) {
+  for (const PlacedRow& row : rows.scenes) {
     SceneMeasurement m;
-    m.scene = j["scene"];
-    m.type = j["type"];
-    const std::string dt = j["dt"];
-    const std::string variant = j["variant"];
-    const auto steps = j.value("steps", std::uint64_t{0});
-    m.run = fmt::format("dt={} steps={}{}{}", dt, steps, variant.empty() ? "" : " ", variant);
+    m.scene = text_of(row, "scene");
+    m.type = text_of(row, "type");
+    const std::string dt = text_of(row, "dt");
+    const std::string variant = text_of(row, "variant");
+    const std::string integrator = text_of(row, "integrator");
+    const auto steps = row.row.at("steps").get<std::uint64_t>();
+    m.run = fmt::format("{} dt={} steps={}{}{}", integrator, dt, steps, variant.empty() ? "" : " ", variant);
     // Without an account both errors are 0 and say nothing.
-    if (j.contains("energy") && j["energy"].is_object()) {
-      m.max_energy_error = number_at(j, "max_energy_error");
-      m.max_energy_error_raw = number_at(j, "max_energy_error_raw");
+    if (row.row.contains("energy") && row.row["energy"].is_object()) {
+      m.max_energy_error = number_at(row, "max_energy_error");
+      m.max_energy_error_raw = number_at(row, "max_energy_error_raw");
     }
     const std::string run =
         fmt::format("{} --types {} --dt {} --steps {}", m.scene, m.type, shell_word(dt), steps);
     m.reproduce = fmt::format("ulpgate scene run {} --series --out DIR", run);
-    for (const Json& c : correlations) {
-      if (c["type"] != m.type || c["against"] == "RealHP4" || c["against"] == "half_step") continue;
+    for (const PlacedRow& c : rows.correlations) {
+      const std::string against = text_of(c, "against");
+      if (!is_of_run(c, row) || against == "RealHP4" || against == "half_step") continue;
+      if (m.t_s) bad(c.place, fmt::format("a second correlation of {} {}", m.scene, scene_budget_key(m)));
       m.t_s = number_at(c, "t_s");
-      m.reproduce = fmt::format("ulpgate scene correlate {} --reference {} --series --out DIR", run,
-                                c["against"].get<std::string>());
+      m.reproduce = fmt::format("ulpgate scene correlate {} --reference {} --series --out DIR", run, against);
     }
-    const std::string integrator = j.value("integrator", "leapfrog");
     if (integrator != "leapfrog") m.reproduce += " --integrator " + integrator;
     for (const auto& change : split(variant, ',')) m.reproduce += " --set " + shell_word(change);
     measured.push_back(std::move(m));
@@ -91,69 +98,75 @@ std::vector<SceneMeasurement> read_scene_measurements(const std::filesystem::pat
   return measured;
 }
 
-SceneBudgets read_scene_budgets(const std::filesystem::path& directory) {
-  SceneBudgets budgets;
-  if (!std::filesystem::is_directory(directory)) return budgets;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    if (entry.path().extension() != ".toml") continue;
-    const std::string file = entry.path().string();
-    const auto bad = [&](const toml::node& node, const std::string& what) {
-      return Failure(ExitCode::bad_input, fmt::format("{}:{}: {}", file, node.source().begin.line, what));
-    };
-    try {
-      const toml::table table = toml::parse(read_file(entry.path()), file);
-      auto& rows = budgets[entry.path().stem().string()];
-      for (const auto& [section, node] : table) {
-        if (section != "budget" || !node.is_table())
-          throw bad(node, fmt::format("unknown section '{}'", section.str()));
-        for (const auto& [name, value] : *node.as_table()) {
-          if (!value.is_table()) throw bad(value, fmt::format("budget '{}' must be a table", name.str()));
-          SceneBudget& b = rows[std::string(name.str())];
-          for (const auto& [key, number] : *value.as_table()) {
-            if (key == "reason" && number.is_string()) {
-              b.reason = *number.value<std::string>();
-              continue;
-            }
-            auto* const limit = key == "t_s"                    ? &b.t_s
-                                : key == "max_energy_error"     ? &b.max_energy_error
-                                : key == "max_energy_error_raw" ? &b.max_energy_error_raw
-                                                                : nullptr;
-            const auto x = number.value<double>();
-            if (limit == nullptr || !x || !(*x >= 0))
-              throw bad(number, fmt::format("['{}'] {} must be one of t_s, max_energy_error, "
-                                            "max_energy_error_raw and a number >= 0, or a reason",
-                                            name.str(), key.str()));
-            *limit = *x;
+namespace {
+
+SceneRowBudgets parse_scene(const std::string& text, const std::string& file) {
+  const auto at = [&](const toml::node& node) {
+    return fmt::format("{}:{}", file, node.source().begin.line);
+  };
+  try {
+    SceneRowBudgets rows;
+    for (const auto& [section, node] : toml::parse(text, file)) {
+      if (section != "budget" || !node.is_table())
+        bad(at(node), fmt::format("unknown section '{}'", section.str()));
+      for (const auto& [name, value] : *node.as_table()) {
+        if (!value.is_table()) bad(at(value), fmt::format("budget '{}' must be a table", name.str()));
+        SceneBudget& b = rows[std::string(name.str())];
+        bool limited = false;
+        for (const auto& [key, number] : *value.as_table()) {
+          if (key == "reason" && number.is_string()) {
+            b.reason = *number.value<std::string>();
+            continue;
           }
+          const auto* const limit =
+              std::ranges::find_if(limits, [text = key.str()](const auto& l) { return text == l.first; });
+          const auto x = number.value<double>();
+          if (limit == std::end(limits) || !x || !std::isfinite(*x) || *x < 0)
+            bad(at(number),
+                fmt::format("['{}'] {} must be one of t_s, max_energy_error, max_energy_error_raw "
+                            "and a finite number >= 0, or a reason",
+                            name.str(), key.str()));
+          b.*limit->second = *x;
+          limited = true;
         }
+        if (!limited) bad(at(value), fmt::format("['{}'] limits nothing", name.str()));
       }
-    } catch (const toml::parse_error& e) {
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("{}:{}: {}", file, e.source().begin.line, e.description()));
     }
+    return rows;
+  } catch (const toml::parse_error& e) {
+    throw Failure(Standing::bad_input,
+                  fmt::format("{}:{}: {}", file, e.source().begin.line, e.description()));
   }
-  return budgets;
+}
+
+std::string scene_text(const std::string& scene, const SceneRowBudgets& rows) {
+  std::string text = fmt::format(
+      "# Budgets of {}: the least t_s (s) and the largest energy errors (J) of every type and run.\n"
+      "# Written by `ulpgate gate DIR --budgets DIR --update`; loosened only with `--reason`.\n",
+      scene);
+  for (const auto& [key, b] : rows) {
+    text += fmt::format("\n[budget.{}]\n", toml_quoted(key));
+    for (const auto& [name, limit] : limits) {
+      if (!(b.*limit)) continue;
+      if (!std::isfinite(*(b.*limit))) {
+        throw Failure(Standing::not_finite, fmt::format("{} {}: {} is {}, of which no budget can be made",
+                                                        scene, key, name, *(b.*limit)));
+      }
+      text += fmt::format("{} = {:#}\n", name, *(b.*limit));
+    }
+    if (!b.reason.empty()) text += fmt::format("reason = {}\n", toml_quoted(b.reason));
+  }
+  return text;
+}
+
+}  // namespace
+
+SceneBudgets read_scene_budgets(const std::filesystem::path& directory) {
+  return read_toml_files<SceneRowBudgets>(directory, parse_scene);
 }
 
 void write_scene_budgets(const std::filesystem::path& directory, const SceneBudgets& budgets) {
-  make_directory(directory);
-  for (const auto& [scene, rows] : budgets) {
-    std::string text = fmt::format(
-        "# Budgets of {}: the least t_s (s) and the largest energy errors (J) of every type and run.\n"
-        "# Written by `ulpgate gate DIR --budgets DIR --update`; loosened only with `--reason`.\n",
-        scene);
-    for (const auto& [key, b] : rows) {
-      text += fmt::format("\n[budget.{}]\n", quoted(key));
-      const auto put = [&](const char* name, const std::optional<double>& x) {
-        if (x) text += fmt::format("{} = {:#}\n", name, *x);
-      };
-      put("t_s", b.t_s);
-      put("max_energy_error", b.max_energy_error);
-      put("max_energy_error_raw", b.max_energy_error_raw);
-      if (!b.reason.empty()) text += fmt::format("reason = {}\n", quoted(b.reason));
-    }
-    write_file(directory / (scene + ".toml"), text);
-  }
+  write_toml_files<SceneRowBudgets>(directory, budgets, scene_text, parse_scene);
 }
 
 }  // namespace ulpgate::app

@@ -8,8 +8,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/selection.hpp"
+#include "harness/app/shell/strict_options.hpp"
 #include "harness/core/arguments/random_words.hpp"
 #include "harness/core/orders/order_engine.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
@@ -24,16 +24,19 @@ namespace {
 constexpr std::string_view leapfrog = "leapfrog";
 
 Failure refused(const std::string& option, const std::string& value, const std::string& why) {
-  return {ExitCode::bad_input, fmt::format("{} '{}': {}", option, value, why)};
+  return {Standing::bad_input, fmt::format("{} '{}': {}", option, value, why)};
 }
 
 void check_integrator(const std::string& name) {
   std::vector<std::string> splitting;
   for (const auto& i : ode::integrators()) {
-    if (i.kind == ode::IntegratorKind::splitting) splitting.push_back(i.name);
+    if (i.kind == ode::IntegratorKind::splitting) {
+      splitting.push_back(i.name);
+    } else if (i.name == name) {
+      throw refused("--integrator", name, "is no splitting method, which alone integrate scenes");
+    }
   }
-  if (std::ranges::find(splitting, name) == splitting.end())
-    unknown_name("integrator of scenes", name, splitting);
+  if (std::ranges::find(splitting, name) == splitting.end()) unknown_name("integrator", name, splitting);
 }
 
 // Options of their own would otherwise stand twice, and the record name one of the two.
@@ -41,7 +44,7 @@ void check_overrides(const std::vector<std::string>& overrides) {
   for (const auto& text : overrides) {
     const std::string key = text.substr(0, text.find('='));
     if (key == "dt" || key == "until")
-      throw Failure(ExitCode::bad_input, fmt::format("--set {}: use --{}", text, key));
+      throw Failure(Standing::bad_input, fmt::format("--set {}: use --{}", text, key));
   }
 }
 
@@ -54,11 +57,14 @@ void change(LoadedScene& loaded, const std::string& key, const std::optional<std
 }
 
 std::uint64_t steps_of(const LoadedScene& loaded, const SceneRequest& request) {
-  if (request.steps) return parse_steps("--steps", *request.steps);
+  // A step of the scene that is none is refused whatever the run's length.
   const std::uint64_t steps = scenes::steps_until_end(loaded.scene);
+  if (request.steps) return parse_steps("--steps", *request.steps);
   if (steps == 0 || steps > most_steps) {
-    throw refused(request.until ? "--until" : request.name + ": run.until", loaded.scene.until,
-                  fmt::format("{} steps of {} s: a run takes 1 to {}", steps, loaded.scene.dt, most_steps));
+    throw refused(
+        request.until ? "--until" : request.name + ": run.until", loaded.scene.until,
+        fmt::format("{} steps of {} s: a run takes 1 to {}",
+                    steps > most_steps ? "too many" : std::to_string(steps), loaded.scene.dt, most_steps));
   }
   return steps;
 }
@@ -89,8 +95,8 @@ std::vector<std::uint64_t> snapshot_steps_of(const LoadedScene& loaded, const st
 std::uint64_t parse_steps(const std::string& option, const std::string& text) {
   std::uint64_t steps = 0;
   const char* end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, steps);
-  if (parsed.ec != std::errc() || parsed.ptr != end || steps == 0 || steps > most_steps)
+  if (count_fault(text).empty()) std::from_chars(text.data(), end, steps);
+  if (steps == 0 || steps > most_steps)
     throw refused(option, text, fmt::format("want a whole number from 1 to {}", most_steps));
   return steps;
 }
@@ -108,14 +114,21 @@ SceneJob make_job(const SceneRequest& request) {
     scene.record.emplace_back("energy");
     job.loaded.text += "\n# record energy";
   }
-  job.steps = steps_of(job.loaded, request);
-  job.record_every = scenes::steps_between_records(scene);
+  try {
+    job.steps = steps_of(job.loaded, request);
+    job.record_every = scenes::steps_between_records(scene);
+  } catch (const scenes::SceneFault& fault) {
+    throw scene_failure(request.name, fault);
+  } catch (const scenes::ExpressionError& error) {
+    throw Failure(Standing::bad_input, request.name + ": " + error.what());
+  }
   if (request.snapshots) job.snapshot_steps = snapshot_steps_of(job.loaded, *request.snapshots, job.steps);
   check_integrator(request.integrator);
   job.variant = fmt::format("{}", fmt::join(request.overrides, ","));
   job.integrator = request.integrator;
   job.threads = request.threads;
   job.all_parts = request.all_parts;
+  job.allow_large = request.allow_large;
   const std::string integrator = job.integrator == leapfrog ? "" : "integrator " + job.integrator + "\n";
   job.plan_text = fmt::format("ulpgate scene plan\n{}steps {}\nscene {:016x}\n{}\n", integrator, job.steps,
                               fnv1a(job.loaded.text), job.loaded.text);
@@ -123,13 +136,46 @@ SceneJob make_job(const SceneRequest& request) {
   return job;
 }
 
+Failure scene_failure(const std::string& what, const scenes::SceneFault& fault) {
+  const bool large = dynamic_cast<const scenes::SceneTooLarge*>(&fault) != nullptr;
+  return {Standing::bad_input, fmt::format("{}: {}{}", what, fault.what(),
+                                           large ? "; --allow-large takes what memory holds" : "")};
+}
+
+void check_job(const SceneJob& job, const std::vector<std::string>& types) {
+  const std::string& name = job.loaded.scene.name;
+  for (const auto& token : types) {
+    const auto engine = engine_of(token, dem::Level::own, job);
+    if (const auto lost = engine->not_finite())
+      throw Failure(Standing::bad_input,
+                    fmt::format("{} in {}: {} is not finite at the start", name, token, lost->text()));
+    if (job.allow_large) continue;
+    const double work = static_cast<double>(engine->bodies()) * static_cast<double>(job.steps);
+    if (work > most_body_steps)
+      throw Failure(Standing::bad_input,
+                    fmt::format("{}: {} steps of {} bodies are more than {:g} steps of a body: with "
+                                "--allow-large they are taken",
+                                name, job.steps, engine->bodies(), most_body_steps));
+  }
+  if (!job.allow_large && job.record_every != 0 && job.steps / job.record_every > most_records)
+    throw Failure(Standing::bad_input,
+                  fmt::format("{}: {} records are more than {}: with --allow-large they are made", name,
+                              job.steps / job.record_every, most_records));
+}
+
 std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const SceneJob& job) {
-  auto engine = dem::make_engine(token, level, job.loaded.scene, {job.all_parts, job.threads});
+  std::unique_ptr<dem::DemEngine> engine;
+  try {
+    engine = dem::make_engine(token, level, job.loaded.scene, {job.all_parts, job.threads, job.allow_large});
+  } catch (const scenes::SceneFault& fault) {
+    const std::string type = level == dem::Level::own ? token : "RealHP<4> of " + token;
+    throw scene_failure(fmt::format("{} in {}", job.loaded.scene.name, type), fault);
+  }
   if (job.integrator == leapfrog) return engine;
   try {
     engine->set_flow(find_order_engine(token)->flow(job.integrator));
   } catch (const std::invalid_argument& e) {
-    throw Failure(ExitCode::bad_input, fmt::format("--integrator {}: {}", job.integrator, e.what()));
+    throw Failure(Standing::bad_input, fmt::format("--integrator {}: {}", job.integrator, e.what()));
   }
   return engine;
 }

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "harness/app/scenes/scene_files.hpp"
+#include "harness/app/shell/failure.hpp"
 #include "kernels/dem/engine/engine.hpp"
+#include "kernels/scenes/reader/scene_fault.hpp"
 
 namespace ulpgate::app {
 
@@ -24,6 +26,8 @@ struct SceneRequest {
   int threads = 1;
   bool all_parts = false;  // nothing is left out
   bool energy = false;     // the energy account is kept, whatever the scene says
+  // More memory, steps or records than a run takes without being asked.
+  bool allow_large = false;
 };
 
 struct SceneJob {
@@ -35,6 +39,7 @@ struct SceneJob {
   std::vector<std::uint64_t> snapshot_steps;
   int threads = 1;
   bool all_parts = false;
+  bool allow_large = false;
   std::string plan_text;
   std::string plan;
 };
@@ -44,10 +49,20 @@ constexpr std::uint64_t most_steps = std::uint64_t{1} << 53U;
 // A number of steps, 1 to most_steps.  Throws a Failure that names `option` and the text where it is none.
 [[nodiscard]] std::uint64_t parse_steps(const std::string& option, const std::string& text);
 
+// `fault` as it is told to people, with the option that takes a large scene all the same.
+[[nodiscard]] Failure scene_failure(const std::string& what, const scenes::SceneFault& fault);
+
 // Reads the scene and applies the request to it.  Throws a Failure that names the option, or file, line and
 // key.
 [[nodiscard]] SceneJob make_job(const SceneRequest& request);
-// The simulation at its start.  Throws a Failure where the integrator does not apply to the scene.
+// More work, or more records, than this is refused unless the job allows it.
+constexpr double most_body_steps = 1e14;
+constexpr std::uint64_t most_records = 100'000'000;
+// Throws a Failure where the scene is none in one of the types, or more than may be taken without
+// allow_large: the sizes of everything are known before any of it is written.
+void check_job(const SceneJob& job, const std::vector<std::string>& types);
+// The simulation at its start.  Throws a Failure that names the type, and the key or the body, where the
+// scene cannot be simulated in it, or where the integrator does not apply to the scene.
 [[nodiscard]] std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level,
                                                         const SceneJob& job);
 // The instant of the velocities that a state holds: half a step before its positions (the leapfrog), or

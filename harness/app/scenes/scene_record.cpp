@@ -21,10 +21,17 @@ namespace {
 
 using Quantity = dem::BodyQuantity;
 constexpr const char* checkpoint_directory = "checkpoints";
-constexpr int checkpoint_version = 1;
+constexpr int checkpoint_version = 2;
 
 std::uint64_t checksum(const Json& j) {
   return fnv1a(j.dump());
+}
+
+Json json_of(const Vouched& v) {
+  return {{"bytes", v.bytes}, {"fnv1a", v.checksum}};
+}
+Vouched vouched_of(const Json& j) {
+  return {j.at("bytes").get<std::uint64_t>(), j.at("fnv1a").get<std::uint64_t>()};
 }
 
 // The account's sum and the same with the half-step velocities, with what bits the subtraction needs.
@@ -108,9 +115,9 @@ std::string SceneRecorder::trajectory_row(const dem::DemEngine& engine) const {
 }
 
 void SceneRecorder::begin() {
-  const auto start = [&](AppendFile& file, const char* directory, const std::string& first_line) {
+  const auto start = [&](VouchedFile& file, const char* directory, const std::string& first_line) {
     make_directory(out_ / directory);
-    file.open(out_ / directory / (plan_.stem + ".csv"), 0);
+    file.begin(out_ / directory / (plan_.stem + ".csv"));
     file.append(first_line);
   };
   if (out_.empty()) return;
@@ -178,7 +185,7 @@ void SceneRecorder::replay(const std::string& series) {
     const auto fields = fields_of(std::string_view(series).substr(at, end - at));
     at = end + 1;
     if (fields.size() != names.size()) {
-      throw Failure(ExitCode::bad_input, fmt::format("series/{}.csv:{}: {} fields, the header has {}",
+      throw Failure(Standing::bad_input, fmt::format("series/{}.csv:{}: {} fields, the header has {}",
                                                      plan_.stem, number + 1, fields.size(), names.size()));
     }
     // Written as the shortest text that gives the same double back.
@@ -208,8 +215,8 @@ void SceneRecorder::checkpoint(dem::DemEngine& engine) {
             {"plan", plan_.plan},
             {"stem", plan_.stem},
             {"step", engine.iteration()},
-            {"series_bytes", series_.sync()},
-            {"trajectory_bytes", trajectory_.sync()},
+            {"series", json_of(series_.sync())},
+            {"trajectory", json_of(trajectory_.sync())},
             {"state", engine.save()}};
   j["checksum"] = checksum(j);
   make_directory(out_ / checkpoint_directory);
@@ -226,7 +233,7 @@ bool SceneRecorder::resume(dem::DemEngine& engine) {
   if (out_.empty() || !std::filesystem::exists(checkpoint_file())) return false;
   const std::string name = checkpoint_file().string();
   const auto refuse = [&](const std::string& why) -> Failure {
-    return {ExitCode::bad_input, fmt::format("{}: {}; start again with --overwrite", name, why)};
+    return {Standing::bad_input, fmt::format("{}: {}; start again with --overwrite", name, why)};
   };
   Json j = Json::parse(read_file(name), nullptr, false);
   if (!j.is_object() || !j.contains("checksum")) throw refuse("no checkpoint, or a torn one");
@@ -235,12 +242,12 @@ bool SceneRecorder::resume(dem::DemEngine& engine) {
   if (checksum(j) != claimed) throw refuse("its checksum does not fit: it was changed");
   if (j["ulpgate_checkpoint"] != checkpoint_version) throw refuse("made by another version of ulpgate");
   if (j["plan"] != plan_.plan) throw refuse("made by another plan (scene, step, steps or records differ)");
-  const auto go_on = [&](AppendFile& file, const char* directory, const char* length) {
+  const auto go_on = [&](VouchedFile& file, const char* directory) {
     make_directory(out_ / directory);
-    file.open(out_ / directory / (plan_.stem + ".csv"), j[length].get<std::uint64_t>());
+    file.go_on(out_ / directory / (plan_.stem + ".csv"), vouched_of(j[directory]));
   };
-  if (plan_.series) go_on(series_, "series", "series_bytes");
-  if (plan_.trajectory) go_on(trajectory_, "trajectory", "trajectory_bytes");
+  if (plan_.series) go_on(series_, "series");
+  if (plan_.trajectory) go_on(trajectory_, "trajectory");
   // The first step gives the account that later ones are held against.
   if (!energy_names_.empty()) {
     engine.step(1);
@@ -257,19 +264,6 @@ bool SceneRecorder::resume(dem::DemEngine& engine) {
     throw refuse(fmt::format("its state is not one of this scene and type: {}", e.what()));
   }
   return true;
-}
-
-void guard_checkpoints(const std::filesystem::path& out, bool resume, bool overwrite) {
-  const auto directory = out / checkpoint_directory;
-  if (out.empty() || resume || !std::filesystem::exists(directory)) return;
-  if (!overwrite) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{} holds the checkpoints of a run that was not finished: go on with --resume, or "
-                    "start again with --overwrite",
-                    directory.string()));
-  }
-  remove_checkpoints(out);
 }
 
 void remove_checkpoints(const std::filesystem::path& out) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/app/scenes/scene_job.hpp"
-#include "harness/app/shell/append_file.hpp"
+#include "harness/app/scenes/vouched_file.hpp"
 #include "harness/core/scenes/energy_drift.hpp"
 #include "kernels/dem/engine/engine.hpp"
 #include "reference/types/mpfr_value.hpp"
@@ -75,14 +75,12 @@ class SceneRecorder {
   RecordPlan plan_;
   std::vector<std::string> energy_names_;
   std::string header_, trajectory_header_;
-  AppendFile series_, trajectory_;
+  VouchedFile series_, trajectory_;
   std::optional<MpfrValue> start_sum_, start_raw_;
   SceneStatistics statistics_;
   std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();
 };
 
-// Refuses checkpoints that lie in `out` unless the run goes on from them or may write over them.
-void guard_checkpoints(const std::filesystem::path& out, bool resume, bool overwrite);
 // Of a run that is complete.
 void remove_checkpoints(const std::filesystem::path& out);
 

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "harness/app/machine/environment.hpp"
 #include "harness/app/scenes/scene_output.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
@@ -50,6 +51,14 @@ RecordPlan record_plan(const RunRequest& request, const SceneJob& job, const Rec
 
 }  // namespace
 
+FiniteWatch finite_watch(const std::string& token, dem::Level level, const SceneJob& job) {
+  return FiniteWatch([&job, token, level] { return engine_of(token, level, job); });
+}
+
+std::string diverged_text(const SceneJob& job, const std::string& type, const LostState& lost) {
+  return fmt::format("{} in {}: diverged at {}", job.loaded.scene.name, type, lost.text());
+}
+
 std::string stem_of(const SceneJob& job, const std::string& token) {
   return fmt::format("{}_{}", job.loaded.scene.name, token);
 }
@@ -58,19 +67,37 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Rec
   FinishedRun run;
   run.engine = engine_of(request.token, request.level, job);
   dem::DemEngine& engine = *run.engine;
+  const auto reference_at_start = [&] {
+    auto made = engine_of(request.token, dem::Level::reference, job);
+    made->restore(engine_of(request.token, request.level, job)->save(), *request.compare);
+    return made;
+  };
   std::unique_ptr<dem::DemEngine> reference;
-  if (request.compare) {
-    reference = engine_of(request.token, dem::Level::reference, job);
-    reference->restore(engine.save(), *request.compare);
-  }
+  if (request.compare) reference = reference_at_start();
+  FiniteWatch watch = finite_watch(request.token, request.level, job);
+  FiniteWatch reference_watch(reference_at_start);
+  const std::string wide = "RealHP<4> of " + request.token;
+  const auto look = [&] {
+    if (const auto lost = watch.look(engine)) {
+      const std::string type = request.level == dem::Level::own ? request.token : wide;
+      run.diverged = diverged_text(job, type, *lost);
+    } else if (!reference) {
+      return;
+    } else if (const auto lost_too = reference_watch.look(*reference)) {
+      run.diverged = diverged_text(job, wide, *lost_too);
+    }
+  };
   const auto compare_at = request.compare ? comparison_steps(job.steps) : std::vector<std::uint64_t>();
   const bool pictures = !records.out.empty() && request.level == dem::Level::own;
   SceneRecorder recorder(records.out, record_plan(request, job, records), engine);
   const InterruptGuard guard;
   Progress progress(request.label);
+  if (records.directory) records.directory->begin(records.context);
   if (!records.resume || !recorder.resume(engine)) {
     recorder.begin();
     recorder.add(engine);
+  } else {
+    watch.keep(engine);
   }
   // Steps between two looks at Ctrl-C.
   const std::uint64_t most = std::clamp<std::uint64_t>(job.steps / 200, 1, 65536);
@@ -87,7 +114,10 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Rec
     }
     if (now == 0) until = 1;
     engine.step(until - now);
+    check_environment("a step of the scene");
     if (reference) reference->step(until - now);
+    look();
+    if (run.diverged) break;
     if (until == 1 || until == job.steps || (job.record_every != 0 && until % job.record_every == 0))
       recorder.add(engine);
     if (next_compare != compare_at.end() && until == *next_compare) {
@@ -98,11 +128,11 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Rec
     if (!reference && recorder.checkpoint_is_due()) recorder.checkpoint(engine);
     progress.update(static_cast<double>(until), static_cast<double>(job.steps));
   }
-  run.complete = engine.iteration() == job.steps;
+  run.complete = engine.iteration() == job.steps && !run.diverged;
   if (pictures && run.complete && std::ranges::count(job.snapshot_steps, engine.iteration()) != 0)
     write_picture(records, request.stem, engine);
   // Also of a run that is complete: others of the same command may not be.
-  if (!reference) recorder.checkpoint(engine);
+  if (!reference && !run.diverged) recorder.checkpoint(engine);
   recorder.close();
   run.statistics = recorder.statistics();
   return run;

@@ -7,6 +7,6 @@
 
 namespace ulpgate::app {
 
-using Action = std::function<ExitCode()>;
+using Action = std::function<Verdict()>;
 
 }  // namespace ulpgate::app

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t enough = std::size_t{1} << 20;
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw Failure(ExitCode::environment,
+  throw Failure(Standing::environment,
                 fmt::format("cannot write {}: {}", path.string(), std::strerror(error)));
 }
 
@@ -35,7 +35,7 @@ void AppendFile::open(const std::filesystem::path& path, std::uint64_t length) {
   if (file_ < 0 || ::fstat(file_, &facts) != 0) fail(path, errno);
   if (static_cast<std::uint64_t>(facts.st_size) < length) {
     throw Failure(
-        ExitCode::bad_input,
+        Standing::bad_input,
         fmt::format("{} has {} bytes, the checkpoint vouches for {}: it was changed; start again with "
                     "--overwrite",
                     path.string(), facts.st_size, length));

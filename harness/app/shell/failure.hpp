@@ -1,26 +1,20 @@
-// Failure: an expected failure of a command, with the exit code and a message that says what and where.
+// Failure: an expected failure of a command, with what it comes to and a message that says what and where.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
-namespace ulpgate::app {
+#include "harness/core/verdict/verdict.hpp"
 
-enum class ExitCode : int {
-  pass = 0,
-  regression = 1,   // accuracy regression, or the oracles disagree
-  bad_input = 2,    // bad usage or input
-  incomplete = 3,   // nothing measured, or not all of it
-  environment = 4,  // crash, time-out or I/O failure
-};
+namespace ulpgate::app {
 
 class Failure : public std::runtime_error {
  public:
-  Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  [[nodiscard]] ExitCode code() const { return code_; }
+  Failure(Standing standing, const std::string& message) : std::runtime_error(message), standing_(standing) {}
+  [[nodiscard]] Standing standing() const { return standing_; }
 
  private:
-  ExitCode code_;
+  Standing standing_;
 };
 
 }  // namespace ulpgate::app

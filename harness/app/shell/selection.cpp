@@ -7,26 +7,11 @@
 #include <charconv>
 
 #include "harness/app/shell/failure.hpp"
+#include "harness/app/shell/nearest_name.hpp"
 
 namespace ulpgate::app {
 
 namespace {
-
-// Levenshtein distance, for suggestions only.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row[b.size()];
-}
 
 std::vector<std::string> names_of(SubjectKind kind) {
   std::vector<std::string> names;
@@ -66,14 +51,9 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 void unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
-  const auto best =
-      std::ranges::min_element(known, {}, [&](const std::string& k) { return edit_distance(name, k); });
-  std::string hint;
-  if (best != known.end() && edit_distance(name, *best) <= std::max<std::size_t>(2, name.size() / 3)) {
-    hint = fmt::format("; did you mean '{}'?", *best);
-  }
-  throw Failure(ExitCode::bad_input, fmt::format("unknown {} '{}'{} (`ulpgate list {}` shows all)", what,
-                                                 name, hint, what == "stratum" ? "strata" : what + "s"));
+  throw Failure(Standing::bad_input,
+                fmt::format("unknown {} '{}'{} (`ulpgate list {}` shows all)", what, name,
+                            nearest_hint(name, known), what == "stratum" ? "strata" : what + "s"));
 }
 
 const FunctionInfo& function_or_fail(const std::string& name) {
@@ -108,14 +88,14 @@ std::vector<std::string> select_subjects(SubjectKind kind, const std::string& te
     }
     if (chosen.size() == before) unknown_name(std::string(word_of(kind)), name, names_of(kind));
   }
-  if (chosen.empty()) throw Failure(ExitCode::bad_input, fmt::format("--{0}s names no {0}", word_of(kind)));
+  if (chosen.empty()) throw Failure(Standing::bad_input, fmt::format("--{0}s names no {0}", word_of(kind)));
   return in_order(names_of(kind), chosen);
 }
 
 std::vector<std::string> select_types(const std::string& text) {
   std::vector<std::string> chosen = text == "all" ? type_tokens() : split(text, ',');
   for (const auto& token : chosen) static_cast<void>(type_or_fail(token));
-  if (chosen.empty()) throw Failure(ExitCode::bad_input, "--types names no type");
+  if (chosen.empty()) throw Failure(Standing::bad_input, "--types names no type");
   return in_order(type_tokens(), chosen);
 }
 
@@ -123,24 +103,56 @@ std::vector<Stratum> select_strata(SubjectKind kind, const std::string& text) {
   std::vector<std::string> known;
   for (const auto& s : strata_of(kind)) known.emplace_back(s.name);
   std::vector<std::string> chosen = known;
-  // All 2^32 floats are a run of their own: asked for by name alone.
-  std::erase(chosen, name_of(Stratum::exhaustive));
+  std::erase_if(chosen, [](const std::string& name) { return is_asked_for_by_name(*find_stratum(name)); });
   if (text != "all") chosen = split(text, ',');
   for (const auto& name : chosen) {
     if (!find_stratum(name, strata_of(kind))) unknown_name("stratum", name, known);
   }
-  if (chosen.empty()) throw Failure(ExitCode::bad_input, "--strata names no stratum");
+  if (chosen.empty()) throw Failure(Standing::bad_input, "--strata names no stratum");
   std::vector<Stratum> strata;
   for (const auto& name : in_order(known, chosen)) strata.push_back(*find_stratum(name));
   return strata;
 }
 
-void narrow_to_exhaustible(const std::string& functions, const std::string& types, PlanRequest& request) {
+namespace {
+
+// Likewise for the stratum `narrow`, whose rows only functions with a cheap reference have.
+void keep_narrow(const std::string& functions, const std::string& types, PlanRequest& request) {
+  if (std::ranges::find(request.strata, Stratum::narrow) == request.strata.end()) return;
+  const auto has_rows = [](const std::string& name, const std::string& token) {
+    const Subject* subject = find_subject(name, token);
+    return subject != nullptr && subject->narrow_arguments() > 0;
+  };
+  const auto type_has = [&](const std::string& token) {
+    return std::ranges::any_of(request.subjects, [&](const auto& name) { return has_rows(name, token); });
+  };
+  const auto function_has = [&](const std::string& name) {
+    return std::ranges::any_of(request.types, [&](const auto& token) { return has_rows(name, token); });
+  };
+  for (const auto& token : request.types) {
+    if (types == "all" || type_has(token)) continue;
+    throw Failure(Standing::bad_input,
+                  fmt::format("--strata narrow takes float and double: {} has no cheap reference", token));
+  }
+  for (const auto& name : split(functions, ',')) {
+    if (!find_function(name) || function_has(name)) continue;
+    throw Failure(Standing::bad_input,
+                  fmt::format("--strata narrow takes real functions: {} has no cheap reference", name));
+  }
+  if (request.strata.size() > 1) return;
+  std::erase_if(request.types, [&](const std::string& token) { return !type_has(token); });
+  std::erase_if(request.subjects, [&](const std::string& name) { return !function_has(name); });
+}
+
+}  // namespace
+
+void keep_rows_of_named_strata(const std::string& functions, const std::string& types, PlanRequest& request) {
+  keep_narrow(functions, types, request);
   if (std::ranges::find(request.strata, Stratum::exhaustive) == request.strata.end()) return;
   if (types != "all") {
     for (const auto& token : request.types) {
       if (token == "float") continue;
-      throw Failure(ExitCode::bad_input,
+      throw Failure(Standing::bad_input,
                     fmt::format("--strata exhaustive takes float alone: {} has too many values", token));
     }
   }
@@ -148,7 +160,7 @@ void narrow_to_exhaustible(const std::string& functions, const std::string& type
     const auto f = find_function(name);
     const Subject* subject = find_subject(name, "float");
     if (!f || (subject != nullptr && subject->can_exhaust())) continue;
-    throw Failure(ExitCode::bad_input,
+    throw Failure(Standing::bad_input,
                   fmt::format("--strata exhaustive takes real functions of one argument: {} is {}", name,
                               f->function_class == FunctionClass::real
                                   ? fmt::format("one of {} arguments", f->arity)
@@ -171,9 +183,10 @@ Shard parse_shard(const std::string& text) {
   const auto b = slash == std::string::npos ? std::from_chars_result{end, std::errc::invalid_argument}
                                             : std::from_chars(middle + 1, end, shard.count);
   if (a.ec != std::errc() || a.ptr != middle || b.ec != std::errc() || b.ptr != end ||
-      shard.index >= shard.count) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("--shard '{}': want i/n with 0 <= i < n, such as 0/3", text));
+      shard.index >= shard.count || shard.count > most_shards) {
+    throw Failure(
+        Standing::bad_input,
+        fmt::format("--shard '{}': want i/n with 0 <= i < n <= {}, such as 0/3", text, most_shards));
   }
   return shard;
 }

@@ -16,15 +16,17 @@ namespace ulpgate::app {
 [[nodiscard]] std::vector<std::string> select_subjects(SubjectKind kind, const std::string& text);
 [[nodiscard]] std::vector<std::string> select_types(const std::string& text);
 [[nodiscard]] std::vector<Stratum> select_strata(SubjectKind kind, const std::string& text);
-// Where the exhaustive stratum was asked for: types and functions that it cannot take are a Failure when
-// named one by one, and left out when they came with "all", "real" and the like.
-void narrow_to_exhaustible(const std::string& functions, const std::string& types, PlanRequest& request);
+// Where the exhaustive or the narrow stratum was asked for: types and functions that it cannot take are a
+// Failure when named one by one, and left out when they came with "all", "real" and the like.
+void keep_rows_of_named_strata(const std::string& functions, const std::string& types, PlanRequest& request);
 
 struct Shard {
   std::uint64_t index = 0;
   std::uint64_t count = 1;
   [[nodiscard]] std::string text() const { return std::to_string(index) + "/" + std::to_string(count); }
 };
+// No run has more units; positions of units, sums of index and count, stay far from the end of their type.
+inline constexpr std::uint64_t most_shards = std::uint64_t{1} << 32U;
 // "0/3": zero-based.
 [[nodiscard]] Shard parse_shard(const std::string& text);
 

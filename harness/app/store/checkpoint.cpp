@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -25,40 +24,11 @@ constexpr std::size_t greatest_log = std::size_t{32} << 20U;
 // What a power failure may lose, beyond what a killed process may.
 constexpr auto sync_interval = std::chrono::seconds(5);
 
-Json header_of(const RunIdentity& identity) {
-  return {{"format", 1},
-          {"verb", identity.verb},
-          {"plan", identity.plan},
-          {"shard", identity.shard},
-          {"machine", identity.machine}};
-}
-
 std::string header_line(const RunIdentity& identity) {
-  return with_checksum("h " + header_of(identity).dump());
-}
-
-// Names the first of the entries that differ, with both values.
-std::string difference(const Json& there, const Json& here) {
-  for (const auto& [key, value] : here.items()) {
-    const Json other = there.contains(key) ? there.at(key) : Json(nullptr);
-    if (other == value) continue;
-    if (value.is_object() && other.is_object()) return key + " " + difference(other, value);
-    return fmt::format("{} {}, not {}", key, other.dump(), value.dump());
-  }
-  return "entries that this program does not know";
+  return with_checksum("h " + identity_text(identity));
 }
 
 }  // namespace
-
-std::string identity_text(const RunIdentity& identity) {
-  return header_of(identity).dump();
-}
-
-std::optional<std::string> identity_difference(const std::string& there, const RunIdentity& here) {
-  const Json other = Json::parse(there, nullptr, false);
-  if (other == header_of(here)) return std::nullopt;
-  return other.is_object() ? difference(other, header_of(here)) : "no identity";
-}
 
 void UnitProgress::Row::add(const std::vector<Summary>& summaries, double unit_seconds,
                             std::uint64_t unit_points) {
@@ -68,31 +38,15 @@ void UnitProgress::Row::add(const std::vector<Summary>& summaries, double unit_s
   points += unit_points;
 }
 
-Checkpoint::Checkpoint(const std::filesystem::path& out, RunIdentity identity, PartialRun policy)
-    : directory_(out / "units"), identity_(std::move(identity)), synced_(std::chrono::steady_clock::now()) {
-  const bool partial =
-      std::filesystem::exists(directory_ / done_file) || std::filesystem::exists(directory_ / log_file);
-  if (partial && policy == PartialRun::refuse) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{} holds a partial run: go on with --resume, or start anew with --overwrite",
-                              out.string()));
-  }
+Checkpoint::Checkpoint(const OutputDirectory& out)
+    : directory_(out.units()), identity_(out.identity()), synced_(std::chrono::steady_clock::now()) {
   make_directory(directory_);
-  lock_ = ::open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(lock_);
-    throw Failure(ExitCode::bad_input, fmt::format("another process works in {}", out.string()));
-  }
-  if (policy == PartialRun::resume) {
-    // Another run's units must be refused before anything is done.
-    for (const auto* name : {done_file, log_file}) {
-      const auto file = directory_ / name;
-      if (!std::filesystem::exists(file)) continue;
-      const auto lines = checked_lines(read_file(file));
-      if (!lines.empty() && lines.front().payload) check_header(file, *lines.front().payload);
-    }
-  } else {
-    for (const auto* name : {done_file, log_file}) std::filesystem::remove(directory_ / name);
+  // Another run's units must be refused before anything is done.
+  for (const auto* name : {done_file, log_file}) {
+    const auto file = directory_ / name;
+    if (!std::filesystem::exists(file)) continue;
+    const auto lines = checked_lines(read_file(file));
+    if (!lines.empty() && lines.front().payload) check_header(file, *lines.front().payload);
   }
 }
 
@@ -101,25 +55,19 @@ Checkpoint::~Checkpoint() {
     ::fsync(log_);
     ::close(log_);
   }
-  if (lock_ >= 0) ::close(lock_);
   // A run that failed before its first unit leaves nothing behind.
   std::error_code code;
   std::filesystem::remove(directory_, code);
 }
 
 void Checkpoint::check_header(const std::filesystem::path& file, std::string_view payload) const {
-  Json there;
-  if (payload.starts_with("h ")) there = Json::parse(payload.substr(2), nullptr, false);
-  if (!there.is_object()) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}:1: not a checkpoint's header", file.string()));
-  }
-  const Json here = header_of(identity_);
-  if (there == here) return;
-  const bool other_plan = there.value("plan", "") != identity_.plan;
-  throw Failure(ExitCode::bad_input,
+  const bool is_header = payload.starts_with("h ");
+  const auto other = identity_difference(std::string(is_header ? payload.substr(2) : ""), identity_);
+  if (!other) return;
+  throw Failure(Standing::bad_input,
                 fmt::format("{}: a partial run with another {}: {}; give the options of that run, another "
                             "--out, or --overwrite",
-                            file.string(), other_plan ? "plan" : "setting", difference(there, here)));
+                            file.string(), other->starts_with("plan ") ? "plan" : "setting", *other));
 }
 
 void Checkpoint::restore(const ShardUnits& units, UnitProgress& progress) {
@@ -166,7 +114,7 @@ void Checkpoint::compact(const ShardUnits& units, const UnitProgress& progress) 
   write_file(directory_ / log_file, header_line(identity_));
   log_ = ::open((directory_ / log_file).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (log_ < 0) {
-    throw Failure(ExitCode::environment,
+    throw Failure(Standing::environment,
                   fmt::format("cannot open {}: {}", (directory_ / log_file).string(), std::strerror(errno)));
   }
   log_size_ = 0;
@@ -180,7 +128,7 @@ void Checkpoint::append(std::size_t position, double seconds, const std::vector<
 
 void Checkpoint::write_log(const std::string& text) {
   const auto fail = [&] {
-    throw Failure(ExitCode::environment,
+    throw Failure(Standing::environment,
                   fmt::format("cannot write {}: {}; the units finished before are kept: go on with --resume",
                               (directory_ / log_file).string(), std::strerror(errno)));
   };
@@ -203,7 +151,7 @@ void Checkpoint::remove() {
   std::error_code code;
   std::filesystem::remove_all(directory_, code);
   if (code) {
-    throw Failure(ExitCode::environment,
+    throw Failure(Standing::environment,
                   fmt::format("cannot remove {}: {}", directory_.string(), code.message()));
   }
 }

@@ -8,31 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/app/store/records.hpp"
+#include "harness/app/store/output_directory.hpp"
 #include "harness/core/plan/plan.hpp"
 
 namespace ulpgate::app {
-
-// What must be the same for two processes to work on one run.
-struct RunIdentity {
-  std::string verb;   // "math", "kernels"
-  std::string plan;   // hash
-  std::string shard;  // "0/3"
-  Json machine;       // of machine_facts(): program, compiler, libraries, processor
-};
-
-// Names what is not as in `here`, with both values; nothing where `there`, a text of identity_text, says the
-// same.
-[[nodiscard]] std::string identity_text(const RunIdentity& identity);
-[[nodiscard]] std::optional<std::string> identity_difference(const std::string& there,
-                                                             const RunIdentity& here);
-
-// What to do with units of an earlier process.
-enum class PartialRun { refuse, resume, discard };
-[[nodiscard]] inline PartialRun partial_run(bool resume, bool overwrite) {
-  if (resume) return PartialRun::resume;
-  return overwrite ? PartialRun::discard : PartialRun::refuse;
-}
 
 // The units of one shard by position: position p is unit index + p * count of the plan.
 struct ShardUnits {
@@ -69,9 +48,9 @@ struct UnitProgress {
 // row, written aside and renamed when the log has grown; a unit in both counts once.
 class Checkpoint {
  public:
-  // Looks at what DIR/units holds.  Throws a Failure: bad_input where a partial run is there and the policy
-  // is to refuse it, where it is one of another identity, or where another process works on it.
-  Checkpoint(const std::filesystem::path& out, RunIdentity identity, PartialRun policy);
+  // In a directory that this process owns.  Throws a Failure, bad_input, where units of another identity are
+  // there.
+  explicit Checkpoint(const OutputDirectory& out);
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
   ~Checkpoint();
@@ -94,7 +73,6 @@ class Checkpoint {
 
   std::filesystem::path directory_;
   RunIdentity identity_;
-  int lock_ = -1;
   int log_ = -1;
   std::size_t log_size_ = 0;
   std::chrono::steady_clock::time_point synced_;

@@ -1,54 +1,11 @@
 // Context.
 #include "harness/app/store/context.hpp"
 
-#include <fmt/format.h>
-#include <gmp.h>
-#include <gnu/libc-version.h>
-
-#include <Eigen/Core>
-#include <boost/version.hpp>
-#include <cfenv>
-#include <fstream>
-
-#include "harness/app/shell/failure.hpp"
-#include "harness/app/store/build_facts.hpp"
+#include "harness/app/machine/machine_facts.hpp"
+#include "harness/app/reading/planned_rows.hpp"
 #include "harness/core/subject/registry.hpp"
 
 namespace ulpgate::app {
-
-namespace {
-
-std::string cpu_name() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
-
-std::string boost_version() {
-  return fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100);
-}
-
-}  // namespace
-
-// What every kind of run says about itself.
-Json machine_facts() {
-  Json c;
-  c["tool"] = {{"name", "ulpgate"}, {"version", build_facts::version}};
-  c["compiler"] = build_facts::compiler;
-  c["flags"] = build_facts::flags;
-  c["build_type"] = build_facts::build_type;
-  c["libraries"] = {
-      {"glibc", gnu_get_libc_version()},
-      {"Boost", boost_version()},
-      {"MPFR", mpfr_get_version()},
-      {"MPC", mpc_get_version()},
-      {"GMP", gmp_version},
-      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
-  c["cpu"] = cpu_name();
-  return c;
-}
 
 Json type_rows(const std::vector<std::string>& tokens) {
   Json rows = Json::array();
@@ -111,6 +68,7 @@ Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsi
     subjects.push_back(functions ? function_row(subject) : kernel_row(subject));
   }
   c[functions ? "functions" : "kernels"] = subjects;
+  c["planned"] = planned_rows(plan);
   return c;
 }
 
@@ -123,20 +81,6 @@ Json make_scene_context(const std::string& plan, const std::string& plan_text,
   c["complete"] = complete;
   c["types"] = type_rows(types);
   return c;
-}
-
-void assert_floating_point_environment() {
-  if (std::fegetround() != FE_TONEAREST) {
-    throw Failure(ExitCode::environment,
-                  "the rounding mode is not to nearest; results would not be those of the type");
-  }
-  volatile double least_normal = std::numeric_limits<double>::min();
-  volatile double subnormal = least_normal / 4;
-  volatile double back = subnormal * 4;
-  if (subnormal == 0 || back != least_normal) {
-    throw Failure(ExitCode::environment,
-                  "subnormal numbers are flushed to zero; results would not be those of the type");
-  }
 }
 
 }  // namespace ulpgate::app

@@ -10,10 +10,6 @@ namespace ulpgate::app {
                                 bool complete);
 [[nodiscard]] Json make_scene_context(const std::string& plan, const std::string& plan_text,
                                       const std::vector<std::string>& types, unsigned threads, bool complete);
-// Program, compiler, flags, libraries and processor: what else decides a run's numbers beside its plan.
-[[nodiscard]] Json machine_facts();
 [[nodiscard]] Json type_rows(const std::vector<std::string>& tokens);
-// Throws a Failure unless rounding is to nearest and subnormals are neither flushed nor taken as zero.
-void assert_floating_point_environment();
 
 }  // namespace ulpgate::app

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <bit>
@@ -46,32 +45,15 @@ std::optional<PieceLog::Piece> piece_of(const std::string& payload) {
 
 }  // namespace
 
-PieceLog::PieceLog(const std::filesystem::path& out, const RunIdentity& identity, PartialRun policy)
-    : directory_(out / "units"),
-      header_(with_checksum("h " + identity_text(identity))),
+PieceLog::PieceLog(const OutputDirectory& out)
+    : directory_(out.units()),
+      header_(with_checksum("h " + identity_text(out.identity()))),
       synced_(std::chrono::steady_clock::now()) {
-  const bool partial =
-      std::filesystem::exists(directory_ / done_file) || std::filesystem::exists(directory_ / log_file);
-  if (partial && policy == PartialRun::refuse) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{} holds a partial run: go on with --resume, or start anew with --overwrite",
-                              out.string()));
-  }
   make_directory(directory_);
-  lock_ = ::open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(lock_);
-    throw Failure(ExitCode::bad_input, fmt::format("another process works in {}", out.string()));
-  }
-  if (policy == PartialRun::resume) {
-    refuse_others(identity);
-  } else {
-    for (const auto* name : {done_file, log_file}) std::filesystem::remove(directory_ / name);
-  }
+  refuse_others(out.identity());
 }
 
 PieceLog::~PieceLog() {
-  if (lock_ >= 0) ::close(lock_);
   // A run that failed before its first piece leaves nothing behind.
   std::error_code code;
   std::filesystem::remove(directory_, code);
@@ -87,7 +69,7 @@ void PieceLog::refuse_others(const RunIdentity& identity) const {
     const std::string& there = *lines.front().payload;
     const auto other = identity_difference(there.starts_with("h ") ? there.substr(2) : "", identity);
     if (!other) continue;
-    throw Failure(ExitCode::bad_input,
+    throw Failure(Standing::bad_input,
                   fmt::format("{}: a partial run with another {}: {}; give the options of that run, another "
                               "--out, or --overwrite",
                               file.string(), other->starts_with("plan ") ? "plan" : "setting", *other));
@@ -128,7 +110,7 @@ void PieceLog::append(const Piece& piece) {
     synced_ = now;
     log_.sync();
   } catch (const Failure& e) {
-    throw Failure(e.code(),
+    throw Failure(e.standing(),
                   fmt::format("{}; what was finished before is kept: go on with --resume", e.what()));
   }
 }
@@ -137,7 +119,7 @@ void PieceLog::remove() {
   std::error_code code;
   std::filesystem::remove_all(directory_, code);
   if (code) {
-    throw Failure(ExitCode::environment,
+    throw Failure(Standing::environment,
                   fmt::format("cannot remove {}: {}", directory_.string(), code.message()));
   }
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "harness/app/shell/append_file.hpp"
-#include "harness/app/store/checkpoint.hpp"
+#include "harness/app/store/output_directory.hpp"
 
 namespace ulpgate::app {
 
@@ -24,9 +24,9 @@ class PieceLog {
     std::string text;  // one line
   };
 
-  // Throws a Failure as the Checkpoint does: bad_input where a partial run is there and the policy is to
-  // refuse it, where it is one of another identity, or where another process works on it.
-  PieceLog(const std::filesystem::path& out, const RunIdentity& identity, PartialRun policy);
+  // In a directory that this process owns.  Throws a Failure, bad_input, where pieces of another identity are
+  // there.
+  explicit PieceLog(const OutputDirectory& out);
   PieceLog(const PieceLog&) = delete;
   PieceLog& operator=(const PieceLog&) = delete;
   ~PieceLog();
@@ -44,7 +44,6 @@ class PieceLog {
 
   std::filesystem::path directory_;
   std::string header_;
-  int lock_ = -1;
   AppendFile log_;
   std::chrono::steady_clock::time_point synced_;
 };

@@ -24,12 +24,12 @@ MpfrValue parse_number(const RealDescriptor& type, const std::string& text, cons
   MpfrValue value(type.format.precision + 64);
   if (!parse_into(value, text, type.format)) {
     throw Failure(
-        ExitCode::bad_input,
+        Standing::bad_input,
         fmt::format("{}: '{}' is not a number (want decimal, hexfloat such as -0x1.8p+1, inf or nan)", place,
                     text));
   }
   if (mpfr_regular_p(value.get()) && std::labs(binade(value)) > greatest_exponent) {
-    throw Failure(ExitCode::bad_input,
+    throw Failure(Standing::bad_input,
                   fmt::format("{}: '{}' lies beyond 2^+-{}, the largest arguments that are evaluated", place,
                               text, greatest_exponent));
   }
@@ -43,7 +43,7 @@ MpfrValue parse_argument(const FunctionInfo& f, std::size_t slot, const RealDesc
   if (map == DomainMap::UINT || map == DomainMap::INT) {
     const long least = map == DomainMap::UINT ? 0 : -greatest_index;
     if (!mpfr_integer_p(value) || mpfr_cmp_si(value, greatest_index) > 0 || mpfr_cmp_si(value, least) < 0) {
-      throw Failure(ExitCode::bad_input,
+      throw Failure(Standing::bad_input,
                     fmt::format("{}: argument {} of {} must be an integer from {} to {}, not '{}'", place,
                                 slot + 1, f.name, least, greatest_index, text));
     }
@@ -53,7 +53,7 @@ MpfrValue parse_argument(const FunctionInfo& f, std::size_t slot, const RealDesc
 
 WorstCaseFile read_worst_cases(const std::filesystem::path& directory, const PlanRequest& request) {
   if (!std::filesystem::is_directory(directory)) {
-    throw Failure(ExitCode::bad_input,
+    throw Failure(Standing::bad_input,
                   fmt::format("{}: no such directory of worst cases", directory.string()));
   }
   WorstCaseFile out;
@@ -68,9 +68,9 @@ WorstCaseFile read_worst_cases(const std::filesystem::path& directory, const Pla
       const auto words = split(line, ' ');
       if (words.empty()) continue;
       const auto f = find_function(words[0]);
-      if (!f) throw Failure(ExitCode::bad_input, fmt::format("{}: unknown function '{}'", place, words[0]));
+      if (!f) throw Failure(Standing::bad_input, fmt::format("{}: unknown function '{}'", place, words[0]));
       if (words.size() != static_cast<std::size_t>(f->arity) + 1) {
-        throw Failure(ExitCode::bad_input, fmt::format("{}: {} takes {} arguments, found {}", place, f->name,
+        throw Failure(Standing::bad_input, fmt::format("{}: {} takes {} arguments, found {}", place, f->name,
                                                        f->arity, words.size() - 1));
       }
       std::vector<MpfrValue> point;

@@ -18,6 +18,7 @@ enum class Stratum {
   binades,
   edges,
   hard,
+  narrow,
   exhaustive,
   typical,
   grazing,
@@ -36,7 +37,7 @@ struct StratumInfo {
   std::string_view description;
 };
 
-inline constexpr std::array<StratumInfo, 7> function_strata = {{
+inline constexpr std::array<StratumInfo, 8> function_strata = {{
     {Stratum::worst, "worst", "known worst cases from ci/worst_cases, replayed first"},
     {Stratum::uniform, "uniform", "random on (-100, 100), mapped to the domain once"},
     {Stratum::stratified, "stratified",
@@ -44,6 +45,10 @@ inline constexpr std::array<StratumInfo, 7> function_strata = {{
     {Stratum::binades, "binades", "every exponent that the domain allows, random significands, both signs"},
     {Stratum::edges, "edges", "zeros, infinities, NaN, extremes, 1, integers, halves, poles and neighbours"},
     {Stratum::hard, "hard", "nearest to multiples of pi/2, zeros, over- and underflow; powers near 1"},
+    {Stratum::narrow, "narrow",
+     "the most suspicious of each block of thousands, by a cheap reference; float and double, real "
+     "functions; "
+     "not part of `all`"},
     {Stratum::exhaustive, "exhaustive",
      "all 2^32 values of float, real functions of one argument; a proof; not part of `all`"},
 }};
@@ -86,6 +91,11 @@ inline constexpr std::array<StratumInfo, 11> kernel_strata = {{
 }
 [[nodiscard]] constexpr bool is_drawn(Stratum s) {
   return !is_listed(s) && s != Stratum::exhaustive;
+}
+
+// Runs of their own, which `all` does not mean.
+[[nodiscard]] constexpr bool is_asked_for_by_name(Stratum s) {
+  return s == Stratum::narrow || s == Stratum::exhaustive;
 }
 
 // Every bit pattern of float, each once.

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "harness/core/arguments/sampling.hpp"
+#include "harness/core/functions/calls_in_hand.hpp"
+#include "harness/core/functions/narrow_scan.hpp"
 #include "harness/core/functions/subject_call.hpp"
 #include "harness/core/judging/screened_judging.hpp"
 #include "harness/core/subject/registry.hpp"
@@ -49,6 +51,10 @@ class FunctionSubject final : public Subject {
            function_.arity == 1;
   }
 
+  [[nodiscard]] std::size_t narrow_arguments() const override {
+    return has_narrow_scan<Real> ? narrow_block(function_, std::same_as<Real, float>) : 0;
+  }
+
   [[nodiscard]] std::vector<Summary> evaluate(const StratumSource& source, std::uint64_t first,
                                               std::uint64_t last, ReferenceMode mode,
                                               RowHint& hint) const override {
@@ -68,7 +74,7 @@ class FunctionSubject final : public Subject {
 
   [[nodiscard]] Point point(const StratumSource& source, std::uint64_t k) const override {
     std::vector<Real> args(static_cast<std::size_t>(function_.arity));
-    Arguments<Real>(function_, source).make(k, args.data());
+    ScannedArguments<Real>(function_, source, call_).make_all(k, 1, args.data());
     return describe_point(args);
   }
   [[nodiscard]] Point point(const std::vector<MpfrValue>& values) const override {
@@ -114,10 +120,13 @@ class FunctionSubject final : public Subject {
     const FunctionInfo& f = function_;
     const auto arity = static_cast<std::size_t>(f.arity);
     const auto parts = static_cast<std::size_t>(f.parts);
-    const Arguments<Real> arguments(f, source);
+    ScannedArguments<Real> arguments(f, source, call_);
     std::vector<Real> args(batch_size * arity);
     std::vector<Real> results(batch_size * parts);
     std::vector<std::uint8_t> threw(batch_size);
+    const CallsInHand<Real> calls(f, call_, args);
+    const HandScope hand(calls);
+    Heartbeat& heart = Heartbeat::mine();
     const std::uint64_t stride = oracle_stride(source);
     // Nothing is known yet of a row's maxima: small batches find them before many samples climb for being
     // one.
@@ -127,11 +136,15 @@ class FunctionSubject final : public Subject {
       n = std::min<std::uint64_t>(most, last - k);
       arguments.make_all(k, n, args.data());
       std::fill(threw.begin(), threw.end(), std::uint8_t{0});
+      heart.beat(WorkPhase::calls, n);
       call_(args.data(), results.data(), threw.data(), n);
+      heart.beat(WorkPhase::references, n);
       judging.judge(
           Batch<Real>{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}, k}, tally);
-      for (std::size_t i = (stride - k % stride) % stride; i < n; i += stride)
+      for (std::size_t i = (stride - k % stride) % stride; i < n; i += stride) {
+        heart.beat(WorkPhase::reference, i);
         compare_oracles(&args[i * arity], k + i, tally);
+      }
     }
   }
 
@@ -180,6 +193,9 @@ class FunctionSubject final : public Subject {
     const auto parts = static_cast<std::size_t>(f.parts);
     std::vector<Real> results(parts);
     std::uint8_t threw = 0;
+    const CallsInHand<Real> calls(f, call_, args);
+    const HandScope hand(calls);
+    Heartbeat::mine().beat(WorkPhase::calls, 1);
     call_(args.data(), results.data(), &threw, 1);
     const Batch<Real> batch{f, args, results, {&threw, 1}};
     FullJudging<Real> judging(f);

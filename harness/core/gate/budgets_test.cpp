@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "harness/core/gate/limits.hpp"
 
 namespace ulpgate {
 namespace {
@@ -27,7 +30,9 @@ Budgets budgets_of(const std::vector<RowRecord>& records) {
 
 std::vector<FindingKind> kinds(const std::vector<GateFinding>& findings) {
   std::vector<FindingKind> out;
-  for (const auto& f : findings) out.push_back(f.kind);
+  // One change may exceed several limits of its row.
+  for (const auto& f : findings)
+    if (out.empty() || out.back() != f.kind) out.push_back(f.kind);
   return out;
 }
 
@@ -52,7 +57,7 @@ TEST(Gate, FindsEveryKind) {
   EXPECT_TRUE(judge_records({record("exp", 0.1)}, budgets, MissingRecords::ignore).empty())
       << "a smaller run says nothing about budgets that could fall";
   RowRecord torn = record("exp", 0.5);
-  torn.planned = 11;
+  --torn.summary.samples;
   EXPECT_EQ(kinds(judge_records({torn}, budgets, MissingRecords::ignore)), Kinds{FindingKind::incomplete});
   EXPECT_EQ(kinds(judge_records({record("exp", HUGE_VAL)}, budgets, MissingRecords::ignore)),
             Kinds{FindingKind::regression});
@@ -61,8 +66,9 @@ TEST(Gate, FindsEveryKind) {
 TEST(Gate, WorstRegressionComesFirst) {
   const auto budgets = budgets_of({record("exp", 0.5), record("sin", 0.5)});
   const auto findings = judge_records({record("sin", 1), record("exp", 100)}, budgets, MissingRecords::fail);
-  ASSERT_EQ(findings.size(), 2U);
+  ASSERT_EQ(kinds(findings), Kinds{FindingKind::regression});
   EXPECT_EQ(findings[0].row, "exp");
+  EXPECT_EQ(findings.back().row, "sin");
   EXPECT_EQ(findings[0].at, std::vector<std::string>{"0x1p+0"});
 }
 
@@ -95,7 +101,9 @@ TEST(Gate, HoldsEveryStratumToItsOwnLimit) {
   const auto findings =
       judge_records({record("sin", 5), record("sin", 1.4e5, "hard")}, budgets, MissingRecords::fail);
   ASSERT_EQ(kinds(findings), Kinds{FindingKind::regression});
-  EXPECT_NE(findings[0].message.find("budget 0.515 (uniform"), std::string::npos) << findings[0].message;
+  EXPECT_TRUE(std::ranges::any_of(findings, [](const GateFinding& f) {
+    return f.message.find("maximum error in ULP 5, budget 0.515 (uniform") != std::string::npos;
+  }));
   EXPECT_EQ(kinds(judge_records({record("sin", 0.51), record("sin", 0.51, "edges")}, budgets,
                                 MissingRecords::ignore)),
             Kinds{FindingKind::missing_budget});

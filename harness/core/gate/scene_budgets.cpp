@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/core/gate/limits.hpp"
+#include "harness/core/verdict/verdict.hpp"
+
 namespace ulpgate {
 
 namespace {
@@ -38,11 +41,19 @@ void judge_one(const SceneMeasurement& m, const SceneBudget& budget, std::vector
                         0,
                         {m.reproduce}});
   };
+  if (!budget.t_s && !budget.max_energy_error && !budget.max_energy_error_raw) {
+    findings.push_back({FindingKind::missing_budget,
+                        m.type,
+                        m.scene + " " + m.run,
+                        "its budget limits nothing",
+                        0,
+                        {m.reproduce}});
+  }
   if (budget.t_s) {
     if (!m.t_s) {
       absent("t_s");
-    } else if (!(*m.t_s >= *budget.t_s - t_s_allowance)) {
-      add(*budget.t_s / std::max(*m.t_s, 1e-9),
+    } else if (at_least(*m.t_s, *budget.t_s - t_s_allowance) != Standing::pass) {
+      add(std::isnan(*m.t_s) ? HUGE_VAL : *budget.t_s / std::max(*m.t_s, 1e-9),
           fmt::format("true for {:g} s, budget {:g} s", *m.t_s, *budget.t_s));
     }
   }
@@ -51,17 +62,12 @@ void judge_one(const SceneMeasurement& m, const SceneBudget& budget, std::vector
     const double limit = *(budget.*column.limit);
     if (!(m.*column.value)) {
       absent(column.name);
-    } else if (const double error = *(m.*column.value); !(error <= limit)) {
+    } else if (const double error = *(m.*column.value);
+               !(error >= 0) || at_most(error, limit) != Standing::pass) {
       add(std::isnan(error) ? HUGE_VAL : error / std::max(limit, 1e-300),
           fmt::format("{} {:.4g} J, budget {:.4g} J", column.name, error, limit));
     }
   }
-}
-
-double round_up(double x) {
-  if (!(x > 0) || !std::isfinite(x)) return x;
-  const double unit = std::pow(10, std::floor(std::log10(x)) - 2);
-  return std::strtod(fmt::format("{:.2e}", std::ceil(x / unit) * unit).c_str(), nullptr);
 }
 
 }  // namespace

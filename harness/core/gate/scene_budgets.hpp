@@ -14,8 +14,8 @@ namespace ulpgate {
 struct SceneMeasurement {
   std::string scene;
   std::string type;
-  std::string run;                         // what else fixes its numbers: "dt=1e-5 steps=1200000 mass=yade"
-  std::optional<double> t_s;               // s
+  std::string run;            // what else fixes its numbers: "leapfrog dt=1e-5 steps=1200000 mass=yade"
+  std::optional<double> t_s;  // s
   std::optional<double> max_energy_error;  // J
   std::optional<double> max_energy_error_raw;
   std::string reproduce;  // a command

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/core/judging/row_tally.hpp"
+#include "harness/core/watch/heartbeat.hpp"
 #include "reference/oracle/oracle.hpp"
 #include "reference/ulp/ulp.hpp"
 
@@ -64,6 +65,7 @@ class PointJudge {
 
   // Evaluates the exact values of point i.
   void load(const Batch<Real>& batch, std::size_t i) {
+    Heartbeat::mine().beat(WorkPhase::reference, i);
     const Real* args = batch.args_of(i);
     for (std::size_t j = 0; j < args_.size(); ++j) to_mpfr(args_[j].get(), args[j]);
     exactness_ = evaluate_(function_, args_, exact_);

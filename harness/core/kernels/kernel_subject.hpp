@@ -6,6 +6,7 @@
 
 #include "harness/core/kernels/kernel_states.hpp"
 #include "harness/core/subject/registry.hpp"
+#include "harness/core/watch/heartbeat.hpp"
 #include "kernels/dem/table/kernel_table.hpp"
 #include "reference/text/text.hpp"
 
@@ -31,6 +32,7 @@ class KernelSubject final : public Subject {
 
   [[nodiscard]] ArgumentList listed(Stratum) const override { return {}; }
   [[nodiscard]] bool can_exhaust() const override { return false; }
+  [[nodiscard]] std::size_t narrow_arguments() const override { return 0; }
 
   // The reference is RealHP<4> alone: there is nothing to screen with.
   [[nodiscard]] std::vector<Summary> evaluate(const StratumSource& source, std::uint64_t first,
@@ -38,6 +40,7 @@ class KernelSubject final : public Subject {
                                               RowHint& hint) const override {
     const States<Real> states(kernel_, source);
     Evaluation e(*this);
+    const HandScope hand(e);
     std::vector<Summary> summaries(kernel_.outputs.size());
     for (std::uint64_t k = first; k < last; ++k) {
       states.make(k, e.inputs.data());
@@ -85,7 +88,7 @@ class KernelSubject final : public Subject {
  private:
   // One kernel in one state: inputs, results and reference, with buffers that are used again for the next
   // state.
-  struct Evaluation {
+  struct Evaluation final : WorkInHand {
     explicit Evaluation(const KernelSubject& subject)
         : kernel(subject.kernel_),
           inputs(kernel.input_components()),
@@ -104,9 +107,23 @@ class KernelSubject final : public Subject {
       }
     }
 
+    [[nodiscard]] std::size_t count() const override { return 1; }
+    [[nodiscard]] std::string arguments(std::size_t) const override {
+      std::string text;
+      for (const auto& x : inputs) text += (text.empty() ? "" : " ") + to_hexfloat(x);
+      return text;
+    }
+    void repeat(std::size_t) const override {
+      auto again = results;
+      std::uint8_t threw = 0;
+      subject_.call_(inputs.data(), again.data(), &threw, 1);
+    }
+
     void run() {
       threw_ = 0;
+      Heartbeat::mine().beat(WorkPhase::calls, 1);
       subject_.call_(inputs.data(), results.data(), &threw_, 1);
+      Heartbeat::mine().beat(WorkPhase::reference);
       for (std::size_t i = 0; i < inputs.size(); ++i) wide_[i] = widen<Reference>(inputs[i]);
       std::uint8_t reference_threw = 0;
       subject_.reference_(wide_.data(), exact.data(), &reference_threw, 1);
@@ -215,6 +232,7 @@ class KernelSubject final : public Subject {
   };
 
   [[nodiscard]] static Point describe_point(Evaluation& e) {
+    const HandScope hand(e);
     e.run();
     Point p;
     for (const auto& x : e.inputs) {

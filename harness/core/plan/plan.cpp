@@ -29,12 +29,17 @@ bool holds(const std::vector<Stratum>& strata, Stratum s) {
   return std::ranges::find(strata, s) != strata.end();
 }
 
+// Raise it when the arguments of `narrow` change: the sequence, the blocks or the order of suspicion.
+constexpr int narrow_version = 1;
+
 std::string plan_text(const PlanRequest& r) {
   const bool functions = r.kind == SubjectKind::function;
   std::vector<std::string_view> strata;
   for (const auto s : r.strata) strata.push_back(name_of(s));
   std::string units = fmt::format("{}", unit_size);
   if (holds(r.strata, Stratum::exhaustive)) units += fmt::format(" exhaustive {}", exhaustive_unit_size);
+  if (holds(r.strata, Stratum::narrow))
+    units += fmt::format(" narrow {} {} {}", narrow_version, narrow_share, narrow_unit_size);
   const bool undivided =
       functions && holds(r.strata, Stratum::uniform) != holds(r.strata, Stratum::stratified);
   // Versions of the rules that make arguments and that record errors: raise them when they change.
@@ -53,6 +58,7 @@ std::string plan_text(const PlanRequest& r) {
 std::uint64_t drawn_count(SubjectKind kind, Stratum s, std::uint64_t samples,
                           const std::vector<Stratum>& chosen) {
   if (kind == SubjectKind::kernel) return samples;
+  if (s == Stratum::narrow) return (samples + narrow_share - 1) / narrow_share;
   const bool shared = holds(chosen, Stratum::uniform) && holds(chosen, Stratum::stratified);
   if (s != Stratum::binades && !shared) return samples;
   return s == Stratum::uniform ? samples - samples / 2 : samples / 2;
@@ -66,6 +72,8 @@ Plan::Plan(PlanRequest request, const WorstCases& worst) : request_(std::move(re
         StratumSource source{s, request_.seed, 0, nullptr};
         if (s == Stratum::exhaustive) {
           source.count = subject->can_exhaust() ? exhaustive_count : 0;
+        } else if (s == Stratum::narrow && subject->narrow_arguments() == 0) {
+          continue;
         } else if (is_drawn(s)) {
           source.count = drawn_count(request_.kind, s, request_.samples, request_.strata);
         } else {

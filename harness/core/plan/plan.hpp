@@ -57,7 +57,8 @@ class Plan {
 
 // Points of a drawn stratum of functions where a run asks for `samples`: uniform and stratified share them in
 // equal halves (uniform gets the odd one), or the one that is chosen alone gets all; binades get as many as a
-// half.  A stratum of kernels has as many states as were asked for.
+// half, and narrow a sixteenth, each of which is chosen among thousands.  A stratum of kernels has as many
+// states as were asked for.
 [[nodiscard]] std::uint64_t drawn_count(SubjectKind kind, Stratum s, std::uint64_t samples,
                                         const std::vector<Stratum>& chosen);
 
@@ -65,7 +66,11 @@ class Plan {
 inline constexpr std::uint64_t unit_size = 2048;
 // The 2^32 points of an exhaustive row would be two million of those.
 inline constexpr std::uint64_t exhaustive_unit_size = std::uint64_t{1} << 20U;
+// A sample of `narrow` is chosen among thousands of arguments.
+inline constexpr std::uint64_t narrow_unit_size = 64;
+inline constexpr std::uint64_t narrow_share = 16;
 [[nodiscard]] constexpr std::uint64_t unit_size_of(Stratum s) {
+  if (s == Stratum::narrow) return narrow_unit_size;
   return s == Stratum::exhaustive ? exhaustive_unit_size : unit_size;
 }
 

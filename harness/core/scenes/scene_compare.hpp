@@ -12,7 +12,8 @@ namespace ulpgate {
 struct Divergence {
   std::uint64_t step = 0;
   double time_s = 0;
-  // Largest over the bodies: the Euclidean distance, and componentwise in ULP of the tested type.
+  // Largest over the bodies: the Euclidean distance, and componentwise in ULP of the tested type.  Infinite
+  // where a number of either is not finite.
   double position_error_m = 0;
   double position_error_ulp = 0;
   double velocity_error_m_per_s = 0;

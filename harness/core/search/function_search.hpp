@@ -48,5 +48,10 @@ class FunctionSearch {
 [[nodiscard]] bool can_search(const Subject& subject);
 // can_search(subject) must hold.
 [[nodiscard]] std::unique_ptr<FunctionSearch> make_search(const Subject& subject, std::uint64_t seed);
+// A search that passes over the neighbourhoods of known points, so that the large errors there hide no
+// smaller ones elsewhere.
+[[nodiscard]] std::unique_ptr<FunctionSearch> make_search_elsewhere(const Subject& subject,
+                                                                    std::uint64_t seed,
+                                                                    const ArgumentList& known);
 
 }  // namespace ulpgate

@@ -12,8 +12,9 @@ class TypedSearch final : public FunctionSearch {
  public:
   using Position = PositionOf<Real>;
 
-  TypedSearch(const Subject& subject, std::uint64_t seed)
-      : TypedSearch(subject, info_of(find_function(subject.name())->id), seed) {}
+  // Without `known` the hard arguments are evaluated first.
+  TypedSearch(const Subject& subject, std::uint64_t seed, const ArgumentList* known)
+      : TypedSearch(subject, info_of(find_function(subject.name())->id), seed, known) {}
 
   std::size_t begin_round(std::uint64_t most) override { return search_.begin_round(most); }
   void run_batch(std::size_t batch) override { search_.run_batch(batch); }
@@ -40,10 +41,13 @@ class TypedSearch final : public FunctionSearch {
   }
 
  private:
-  TypedSearch(const Subject& subject, const FunctionInfo& f, std::uint64_t seed)
+  TypedSearch(const Subject& subject, const FunctionInfo& f, std::uint64_t seed, const ArgumentList* known)
       : target_(f, call_of<Real>(subject)),
-        search_(target_, target_.ordinary_boxes(), target_.seeds(subject.listed(Stratum::hard)), seed,
-                size(f)) {}
+        search_(target_, target_.ordinary_boxes(),
+                target_.seeds(known == nullptr ? subject.listed(Stratum::hard) : ArgumentList{}), seed,
+                size(f)) {
+    if (known != nullptr) target_.pass_over(*known);
+  }
 
   // Rounds of a few hundredths of a second: what is found steers what is tried next.
   static SearchSize size(const FunctionInfo& f) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "harness/core/arguments/argument_lists.hpp"
+#include "harness/core/functions/calls_in_hand.hpp"
 #include "harness/core/judging/judging.hpp"
 #include "harness/core/search/local_polynomial.hpp"
 #include "harness/core/search/search.hpp"
@@ -102,6 +103,28 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
     return points;
   }
 
+  // Takes what lies next to these points as known.
+  void pass_over(const ArgumentList& known) {
+    known_ = seeds(known);
+    std::ranges::sort(known_);
+  }
+  // Within 2^(p/2) positions in every argument: as near as that, errors are those of the point itself or of
+  // the same cancellation.
+  [[nodiscard]] bool is_known(const Point& x) const override {
+    const auto reach = Width<Position>(1) << (std::numeric_limits<Real>::digits / 2);
+    const auto near = [&](const Position& a, const Position& b) {
+      return Width<Position>(a < b ? width_of(a, b) : width_of(b, a)) <= reach;
+    };
+    auto it = std::ranges::partition_point(known_,
+                                           [&](const Point& k) { return k[0] < x[0] && !near(k[0], x[0]); });
+    for (; it != known_.end() && near((*it)[0], x[0]); ++it) {
+      bool all = true;
+      for (std::size_t i = 1; i < arity(); ++i) all = all && near((*it)[i], x[i]);
+      if (all) return true;
+    }
+    return false;
+  }
+
   [[nodiscard]] std::vector<MpfrValue> values(const Point& x) const {
     std::vector<MpfrValue> out;
     for (std::size_t i = 0; i < arity(); ++i) {
@@ -113,6 +136,8 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
 
   void rank(std::span<const Point> points, std::span<double> errors) const override {
     thread_local Buffers b;
+    const CallsInHand<Real> calls(function_, call_, b.args);
+    const HandScope hand(calls);
     evaluate(points, b);
     if (!distrusted_ && rank_by_polynomial(points.size(), b, errors)) return;
     if constexpr (has_wide) {
@@ -124,6 +149,8 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
 
   [[nodiscard]] Judgement confirm(const Point& x) const override {
     Buffers b;
+    const CallsInHand<Real> calls(function_, call_, b.args);
+    const HandScope hand(calls);
     evaluate({&x, 1}, b);
     FullJudging<Real> judging(function_);
     return judged(judging, b, 0);
@@ -195,7 +222,9 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
     for (std::size_t i = 0; i < points.size(); ++i) {
       for (std::size_t j = 0; j < arity(); ++j) b.args[i * arity() + j] = positions_.at(points[i][j]);
     }
+    Heartbeat::mine().beat(WorkPhase::calls, points.size());
     call_(b.args.data(), b.results.data(), b.threw.data(), points.size());
+    Heartbeat::mine().beat(WorkPhase::references, points.size());
   }
 
   void rank_by_wide(std::size_t count, Buffers& b, std::span<double> errors) const {
@@ -289,6 +318,7 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
   BatchFunction<Real> call_;
   BatchFunction<WideReal> wide_ = nullptr;
   bool distrusted_ = false;
+  std::vector<Point> known_;  // sorted
 };
 
 }  // namespace ulpgate

@@ -57,7 +57,7 @@ struct SearchBatch {
       target.rank(points, errors);
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (kind == Kind::window && !std::isinf(errors[i])) pool.add(points[i], errors[i]);
-        note(points[i], errors[i]);
+        note(target, points[i], errors[i]);
       }
     }
     if (kind == Kind::band) {
@@ -68,10 +68,10 @@ struct SearchBatch {
   }
 
  private:
-  void note(const Point& at, double error) {
+  void note(const SearchTarget<Position>& target, const Point& at, double error) {
     if (std::isinf(error)) {
-      if (suspects.size() < 2) suspects.push_back(at);
-    } else if (error > box.error) {
+      if (suspects.size() < 2 && !target.is_known(at)) suspects.push_back(at);
+    } else if (error > box.error && !target.is_known(at)) {
       box.error = error;
       box.best = at;
       improved = true;

@@ -24,6 +24,8 @@ class SearchTarget {
   virtual void rank(std::span<const SearchPoint<Position>> points, std::span<double> errors) const = 0;
   // The proven judgement: a mismatch of any part, else the part with the largest error.
   [[nodiscard]] virtual Judgement confirm(const SearchPoint<Position>& x) const = 0;
+  // Whether what can be found at a point, or next to it, is known already: it then leads nowhere.
+  [[nodiscard]] virtual bool is_known(const SearchPoint<Position>& /*x*/) const { return false; }
   // Points within 2^this many positions of each other are ranked faster together than one by one.
   [[nodiscard]] virtual int cheap_scale() const = 0;
   [[nodiscard]] virtual int significand_bits() const = 0;

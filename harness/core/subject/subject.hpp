@@ -75,6 +75,8 @@ class Subject {
   [[nodiscard]] virtual ArgumentList listed(Stratum s) const = 0;
   // Whether all values of the type can be its arguments.
   [[nodiscard]] virtual bool can_exhaust() const = 0;
+  // How many arguments stand behind each sample of the stratum `narrow`; 0: it has no such samples.
+  [[nodiscard]] virtual std::size_t narrow_arguments() const = 0;
 
   // Judges points first..last-1 of a row; one summary per part.  Throws ReferenceDisagreement.  A maximum
   // that `hint` shows to be below that of the row's other units may be missing from the summary.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,7 @@ namespace ulpgate::dem {
 struct EngineOptions {
   bool all_parts = false;  // nothing is left out; the trajectory is the same to the last bit
   int threads = 1;
+  bool allow_large = false;  // more memory than scenes::most_bytes
 };
 
 // Which of RealHP<1> and RealHP<4> of a token's type.
@@ -34,6 +36,17 @@ enum class Constants { from_text, own };
 struct FlowText {
   bool kick;
   std::string fraction;
+};
+
+// What of a state is no finite number: "the velocity", of a body; "the energy account" is of none.
+struct NotFinite {
+  std::string quantity;
+  std::optional<std::size_t> body;
+
+  // "the velocity of body 3"
+  [[nodiscard]] std::string text() const {
+    return body ? quantity + " of body " + std::to_string(*body) : quantity;
+  }
 };
 
 class DemEngine {
@@ -92,6 +105,11 @@ class DemEngine {
   // contacts.
   [[nodiscard]] virtual double critical_step(std::string_view name) const = 0;
 
+  // The first of body numbers whose velocity, position, rotation or kinetic energy is not finite in the type
+  // of the run, then the account; nothing of a state that is.  A state that has left the numbers never comes
+  // back to them: a velocity and a position that are not finite stay so.
+  [[nodiscard]] virtual std::optional<NotFinite> not_finite() const = 0;
+
   [[nodiscard]] virtual const Parts& explain() const = 0;
   [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
   [[nodiscard]] virtual std::size_t collider_rebuilds() const = 0;
@@ -107,7 +125,7 @@ class DemEngine {
 // Tokens that were built in.
 [[nodiscard]] std::vector<std::string> engine_tokens();
 
-// Null where `token` was not built in.
+// Null where `token` was not built in.  Throws a scenes::SceneFault where the scene is none in this type.
 [[nodiscard]] std::unique_ptr<DemEngine> make_engine(std::string_view token, Level level,
                                                      const scenes::Scene& scene,
                                                      const EngineOptions& options);

@@ -14,7 +14,8 @@ template <RealType Real>
 class TypedEngine final : public DemEngine {
  public:
   TypedEngine(std::string type_name, const scenes::Scene& scene, const EngineOptions& options)
-      : type_name_(std::move(type_name)), simulation_(scene, {options.all_parts, options.threads}) {}
+      : type_name_(std::move(type_name)),
+        simulation_(scene, {options.all_parts, options.threads, options.allow_large}) {}
 
   [[nodiscard]] std::string type_name() const override { return type_name_; }
   void step(std::uint64_t count) override { simulation_.step(count); }
@@ -108,6 +109,25 @@ class TypedEngine final : public DemEngine {
     return static_cast<double>(least);
   }
 
+  [[nodiscard]] std::optional<NotFinite> not_finite() const override {
+    using scenes::is_finite;
+    const Bodies<Real>& b = s().bodies;
+    const Parts& parts = s().parts;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (!is_finite(b.velocity[i])) return NotFinite{"the velocity", i};
+      if (!is_finite(b.position[i])) return NotFinite{"the position", i};
+      if (parts.rotation && !is_finite(b.angular_velocity[i])) return NotFinite{"the angular velocity", i};
+      if (parts.orientation) {
+        const Quaternion<Real>& q = b.orientation[i];
+        if (!is_finite(q.w) || !is_finite(Vec3<Real>{q.x, q.y, q.z})) return NotFinite{"the orientation", i};
+      }
+      if (b.fixed[i] == 0 && !is_finite(dem::kinetic_energy(b.mass[i], b.velocity[i])))
+        return NotFinite{"the kinetic energy", i};
+    }
+    if (!is_finite(kinetic_sum())) return NotFinite{"the kinetic energy", std::nullopt};
+    if (parts.energy && !is_finite(s().energies.sum())) return NotFinite{"the energy account", std::nullopt};
+    return std::nullopt;
+  }
   [[nodiscard]] const Parts& explain() const override { return simulation_.parts(); }
   [[nodiscard]] std::size_t memory_bytes() const override { return simulation_.memory(); }
   [[nodiscard]] std::size_t collider_rebuilds() const override { return simulation_.rebuilds(); }

@@ -34,8 +34,8 @@ struct CellGrid {
   std::array<int, 2> count{1, 1};
 
   [[nodiscard]] int index(const CoarseBody& b, std::size_t k) const {
-    const int i = static_cast<int>((b.low[k + 1] - origin[k]) / width[k]);
-    return std::clamp(i, 0, count[k] - 1);
+    // Clamped before it is made an integer: the box of a body that has left the numbers is infinite.
+    return static_cast<int>(std::clamp((b.low[k + 1] - origin[k]) / width[k], 0.0, count[k] - 1.0));
   }
 };
 
@@ -92,7 +92,7 @@ void BroadPhase::sort_pairs(std::size_t bodies, std::vector<BodyPair>& pairs) {
   pairs.swap(sorted_);
 }
 
-void BroadPhase::find(const std::vector<CoarseBody>& bodies, std::vector<BodyPair>& pairs) {
+bool BroadPhase::find(const std::vector<CoarseBody>& bodies, std::vector<BodyPair>& pairs, std::size_t most) {
   pairs.clear();
   sort_along_x(bodies);
   const auto at = [&](std::int32_t i) -> const CoarseBody& { return bodies[static_cast<std::size_t>(i)]; };
@@ -104,6 +104,8 @@ void BroadPhase::find(const std::vector<CoarseBody>& bodies, std::vector<BodyPai
     for (std::size_t l = k + 1; l < large_.size(); ++l) {
       if (overlap(at(large_[k]), at(large_[l]))) add(large_[k], large_[l]);
     }
+    // A body adds no more pairs than there are bodies: to look once a body is to look in time.
+    if (pairs.size() > most) return false;
   }
   CellGrid grid;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -123,13 +125,17 @@ void BroadPhase::find(const std::vector<CoarseBody>& bodies, std::vector<BodyPai
   }
   cells_.resize(static_cast<std::size_t>(grid.count[0]) * static_cast<std::size_t>(grid.count[1]));
   for (auto& cell : cells_) cell.clear();
+  const auto cell_number = [&](int y, int z) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.count[1]) +
+           static_cast<std::size_t>(z);
+  };
   for (const std::int32_t i : order_) {
     const CoarseBody& b = at(i);
     const int y = grid.index(b, 0);
     const int z = grid.index(b, 1);
     for (int cy = std::max(0, y - 1); cy <= std::min(grid.count[0] - 1, y + 1); ++cy) {
       for (int cz = std::max(0, z - 1); cz <= std::min(grid.count[1] - 1, z + 1); ++cz) {
-        auto& cell = cells_[static_cast<std::size_t>(cy * grid.count[1] + cz)];
+        auto& cell = cells_[cell_number(cy, cz)];
         for (std::size_t k = 0; k < cell.size();) {
           if (at(cell[k]).high[0] < b.low[0]) {
             cell[k] = cell.back();
@@ -141,9 +147,11 @@ void BroadPhase::find(const std::vector<CoarseBody>& bodies, std::vector<BodyPai
         }
       }
     }
-    cells_[static_cast<std::size_t>(y * grid.count[1] + z)].push_back(i);
+    cells_[cell_number(y, z)].push_back(i);
+    if (pairs.size() > most) return false;
   }
   sort_pairs(bodies.size(), pairs);
+  return true;
 }
 
 }  // namespace ulpgate::dem

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -29,8 +30,9 @@ struct BodyPair {
 class BroadPhase {
  public:
   // All candidate pairs, sorted.  Sweep and prune along x (D. Baraff, PhD thesis, Cornell 1992), its active
-  // list split into cells of y and z.
-  void find(const std::vector<CoarseBody>& bodies, std::vector<BodyPair>& pairs);
+  // list split into cells of y and z.  False where there are more than `most`: `pairs` is then unspecified.
+  [[nodiscard]] bool find(const std::vector<CoarseBody>& bodies, std::vector<BodyPair>& pairs,
+                          std::size_t most);
 
  private:
   void sort_along_x(const std::vector<CoarseBody>& bodies);

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <span>
+#include <string>
 
 #include "kernels/dem/step/bounds.hpp"
 #include "kernels/dem/step/simulation_state.hpp"
@@ -22,6 +23,8 @@ class Collider {
       outdated_ = false;
     }
   }
+  // More pairs that may touch are refused: update() then throws scenes::SceneTooLarge.
+  void limit_pairs(std::size_t most) { most_pairs_ = most; }
   void outdate() { outdated_ = true; }
   void restart() {
     started_ = false;
@@ -120,7 +123,9 @@ class Collider {
         boxes_[i] = coarse_body(s, i);
         reference_[i] = boxes_[i].centre;
       }
-      broad_phase_.find(boxes_, pairs_);
+      if (!broad_phase_.find(boxes_, pairs_, most_pairs_))
+        throw scenes::SceneTooLarge("more than " + std::to_string(most_pairs_) + " of the pairs of " +
+                                    std::to_string(count) + " bodies may touch");
     } else {
       pairs_.clear();
       reference_.clear();
@@ -211,6 +216,7 @@ class Collider {
   std::vector<CoarseSphere> coarse_;
   std::vector<BodyPair> pairs_, merged_;
   std::vector<std::int32_t> start_, entries_;
+  std::size_t most_pairs_ = scenes::most_pairs;
   double limit2_ = 0;
   bool started_ = false;
   bool outdated_ = true;

@@ -96,10 +96,10 @@ void load_bonds(SimulationState<Real>& s, const scenes::Assembly<Real>& a) {
 
 }  // namespace detail
 
-// `all_parts`: nothing is left out.
+// `all_parts`: nothing is left out.  Throws what scenes::assemble throws.
 template <RealType Real>
-[[nodiscard]] SimulationState<Real> load_scene(const scenes::Scene& scene, bool all_parts) {
-  const scenes::Assembly<Real> a = scenes::assemble<Real>(scene);
+[[nodiscard]] SimulationState<Real> load_scene(const scenes::Scene& scene, bool all_parts, bool allow_large) {
+  const scenes::Assembly<Real> a = scenes::assemble<Real>(scene, allow_large);
   SimulationState<Real> s;
   s.parts = derive_parts(scene, a, all_parts);
   s.law = scene.law;

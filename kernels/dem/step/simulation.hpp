@@ -16,13 +16,15 @@ namespace ulpgate::dem {
 struct SimulationOptions {
   bool all_parts = false;  // nothing is left out; the trajectory is the same to the last bit
   int threads = 1;
+  bool allow_large = false;  // more memory than scenes::most_bytes
 };
 
 template <RealType Real>
 class Simulation {
  public:
   Simulation(const scenes::Scene& scene, const SimulationOptions& options)
-      : s_(load_scene<Real>(scene, options.all_parts)) {
+      : s_(load_scene<Real>(scene, options.all_parts, options.allow_large)) {
+    collider_.limit_pairs(scenes::pairs_allowed<Real>(options.allow_large));
     set_threads(options.threads);
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <exception>
 
 namespace ulpgate::ode {
@@ -16,15 +17,20 @@ class Stopped final : public std::exception {
 class StopFlag {
  public:
   StopFlag() = default;
-  explicit StopFlag(const std::atomic<bool>& raised) : raised_(&raised) {}
+  // `looks` counts the looks, for others to see that the integration gets on; one thread uses the flag.
+  explicit StopFlag(const std::atomic<bool>& raised, std::atomic<std::uint64_t>* looks = nullptr)
+      : raised_(&raised), looks_(looks) {}
 
-  // Cheap enough for every step: one relaxed load.
+  // Cheap enough for every step: a relaxed load, and a store where looks are counted.
   void check() const {
+    if (looks_ != nullptr)
+      looks_->store(looks_->load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     if (raised_ != nullptr && raised_->load(std::memory_order_relaxed)) throw Stopped();
   }
 
  private:
   const std::atomic<bool>* raised_ = nullptr;
+  std::atomic<std::uint64_t>* looks_ = nullptr;
 };
 
 }  // namespace ulpgate::ode

@@ -2,37 +2,18 @@
 // Real.
 #pragma once
 
-#include <map>
+#include <array>
+#include <cstdio>
 #include <vector>
 
 #include "kernels/dem/formulas/contact_physics.hpp"
-#include "kernels/dem/formulas/flat_geometry.hpp"
 #include "kernels/dem/formulas/sphere_body.hpp"
+#include "kernels/scenes/reader/body.hpp"
 #include "kernels/scenes/reader/expression.hpp"
 #include "kernels/scenes/reader/lattices.hpp"
-#include "kernels/scenes/reader/scene.hpp"
+#include "kernels/scenes/reader/start_checks.hpp"
 
 namespace ulpgate::scenes {
-
-enum class Shape : std::uint8_t { sphere, facet, box, wall };
-
-template <RealType Real>
-struct Body {
-  Shape shape = Shape::sphere;
-  bool fixed = true;
-  int material = 0;
-  dem::Vec3<Real> position;  // of a facet its centroid, of a wall a point on it
-  dem::Vec3<Real> velocity;  // of a fixed body prescribed
-  dem::Vec3<Real> angular_velocity;
-  Real radius{0};
-  Real mass{0};
-  dem::Vec3<Real> inertia;  // principal moments
-  bool aspherical = false;
-  dem::Quaternion<Real> orientation;
-  dem::Facet<Real> facet;     // facets: vertices
-  dem::Vec3<Real> half_size;  // boxes
-  int axis = 0;               // walls
-};
 
 template <RealType Real>
 struct MaterialValues {
@@ -86,39 +67,76 @@ class RoundedEvaluator {
   Evaluator<Real> own_;
 };
 
+// A table of the scene by its name in errors: "sphere[3]".
+inline std::string place(const char* table, std::size_t index) {
+  return std::string(table) + "[" + std::to_string(index) + "]";
+}
+
+// Every number is judged here, in the type of the run and after all overrides: the reader judges the text in
+// double alone.
 template <RealType Real>
 class Assembler {
  public:
-  explicit Assembler(const Scene& scene) : scene_(scene), evaluate_(scene.constants_rule) {
+  Assembler(const Scene& scene, bool allow_large)
+      : scene_(scene), allow_large_(allow_large), evaluate_(scene.constants_rule) {
     for (const auto& [name, text] : scene.constants) evaluate_.define(name, text);
   }
 
   [[nodiscard]] Assembly<Real> run() {
-    for (const Material& m : scene_.materials) add_material(m);
-    for (const SphereSpec& s : scene_.spheres) add_sphere(s);
-    for (const Generator& g : scene_.generators) generate(g);
-    for (const FacetSpec& f : scene_.facets) {
-      add_facet({vec(f.vertices[0]), vec(f.vertices[1]), vec(f.vertices[2])}, index_of(f.material));
-    }
-    for (const BoxSpec& b : scene_.boxes) add_box(b);
-    for (const WallSpec& w : scene_.walls) add_wall(w);
+    each("material", scene_.materials, &Assembler::add_material);
+    claim("spheres, facets, boxes and walls",
+          scene_.spheres.size() + scene_.facets.size() + scene_.boxes.size() + scene_.walls.size());
+    each("sphere", scene_.spheres, &Assembler::add_sphere);
+    each("generator", scene_.generators, &Assembler::generate);
+    each("facet", scene_.facets, &Assembler::add_facet_spec);
+    each("box", scene_.boxes, &Assembler::add_box);
+    each("wall", scene_.walls, &Assembler::add_wall);
     add_bonds();
-    out_.gravity = vec(scene_.gravity);
-    out_.damping = evaluate_(scene_.damping);
-    out_.dt = evaluate_(scene_.dt);
-    if (scene_.sweep) out_.sweep = evaluate_(*scene_.sweep);
+    out_.gravity = vec("run", "gravity", scene_.gravity);
+    out_.damping = number("run", "damping", scene_.damping, Range::below_one);
+    out_.dt = number("run", "dt", scene_.dt, Range::positive);
+    if (scene_.sweep) out_.sweep = number("contacts", "sweep", *scene_.sweep, Range::positive);
     return std::move(out_);
   }
 
  private:
+  template <class Spec>
+  void each(const char* table, const std::vector<Spec>& specs,
+            void (Assembler::*add)(const std::string&, const Spec&)) {
+    for (std::size_t i = 0; i < specs.size(); ++i) (this->*add)(place(table, i), specs[i]);
+  }
+
+  // Refuses bodies that would not fit before any of them is made.
+  void claim(const std::string& at, std::uint64_t bodies) {
+    claimed_ += bodies;
+    refuse_large(at + ": bodies", claimed_, most_bodies, bytes_of_body<Real>, allow_large_);
+  }
+
+  Real number(const std::string& at, const char* key, const Expression& text, Range range) const {
+    const Real value = evaluate_(text);
+    const std::string fault = range_fault(value, range);
+    if (!fault.empty())
+      throw SceneFault(at + "." + key + ": " + fault + ", is '" + text + "'" + shown(value));
+    return value;
+  }
+  // For people; a value that is no double is told by its text alone.
+  static std::string shown(const Real& value) {
+    if constexpr (is_instrumented_real<Real>) {
+      return "";
+    } else {
+      std::array<char, 40> digits{};
+      std::snprintf(digits.data(), digits.size(), " = %g", static_cast<double>(value));
+      return digits.data();
+    }
+  }
   // Adding +0 turns a negative zero into a positive one, so that leaving a zero part out can never show in a
   // sign.
-  dem::Vec3<Real> vec(const Triple& t) const {
-    return {evaluate_(t[0]) + Real(0), evaluate_(t[1]) + Real(0), evaluate_(t[2]) + Real(0)};
+  dem::Vec3<Real> vec(const std::string& at, const char* key, const Triple& t,
+                      Range range = Range::any) const {
+    return {number(at, key, t[0], range) + Real(0), number(at, key, t[1], range) + Real(0),
+            number(at, key, t[2], range) + Real(0)};
   }
-  Real radians(const Expression& degrees) const {
-    return evaluate_(degrees) * boost::math::constants::pi<Real>() / 180;
-  }
+  static Real radians(const Real& degrees) { return degrees * boost::math::constants::pi<Real>() / 180; }
   int index_of(const std::string& material) const {
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
       if (scene_.materials[i].name == material) return static_cast<int>(i);
@@ -126,18 +144,23 @@ class Assembler {
     return 0;
   }
 
-  void add_material(const Material& m) {
+  void add_material(const std::string& at, const Material& m) {
     MaterialValues<Real> v;
-    v.density = evaluate_(m.density);
-    v.elastic = {evaluate_(m.young), evaluate_(m.poisson), radians(m.friction_angle)};
-    if (m.stiffness) v.elastic.stiffness = evaluate_(*m.stiffness);
-    v.collision = {evaluate_(m.collision_time), evaluate_(m.restitution_normal),
-                   evaluate_(m.restitution_tangential), radians(m.friction_angle)};
+    v.density = number(at, "density", m.density, Range::positive);
+    const Real friction_angle = radians(number(at, "friction_angle", m.friction_angle, Range::acute));
+    v.elastic = {number(at, "young", m.young, Range::positive),
+                 number(at, "poisson", m.poisson, Range::below_one), friction_angle};
+    if (m.stiffness) v.elastic.stiffness = number(at, "stiffness", *m.stiffness, Range::positive);
+    v.collision = {number(at, "collision_time", m.collision_time, Range::positive),
+                   number(at, "restitution_normal", m.restitution_normal, Range::unit_open_closed),
+                   number(at, "restitution_tangential", m.restitution_tangential, Range::unit_open_closed),
+                   friction_angle};
     v.breakable = m.cohesion.has_value();
-    if (m.cohesion) v.cohesion = evaluate_(*m.cohesion);
-    v.adhesion = evaluate_(m.adhesion);
+    if (m.cohesion) v.cohesion = number(at, "cohesion", *m.cohesion, Range::not_negative);
+    v.adhesion = number(at, "adhesion", m.adhesion, Range::not_negative);
     v.moments = m.moment_stiffness.has_value();
-    if (m.moment_stiffness) v.moment_stiffness = evaluate_(*m.moment_stiffness);
+    if (m.moment_stiffness)
+      v.moment_stiffness = number(at, "moment_stiffness", *m.moment_stiffness, Range::positive);
     out_.materials.push_back(v);
   }
 
@@ -169,23 +192,45 @@ class Assembler {
     return volume * out_.materials[static_cast<std::size_t>(material)].density;
   }
 
-  void add_sphere(const SphereSpec& s) {
-    add_ball(vec(s.position), evaluate_(s.radius), index_of(s.material), s.fixed);
+  // What follows from numbers that are each in their range need not be: a mass of 1e-999 kg is 0.
+  void check_last_ball(const std::string& at) const {
+    const Body<Real>& b = out_.bodies.back();
+    const auto refuse = [&](const char* what) {
+      throw SceneFault(at + " (body " + std::to_string(out_.bodies.size() - 1) + "): " + what);
+    };
+    const auto positive = [](const Real& x) { return x > 0 && is_finite(x); };
+    const auto& elastic = out_.materials[static_cast<std::size_t>(b.material)].elastic;
+    if (!is_finite(b.position)) refuse("its position must be finite");
+    if (!positive(b.radius)) refuse("its radius must be positive and finite");
+    if (!positive(b.mass)) refuse("its mass must be positive and finite");
+    if (!positive(b.inertia.x) || !positive(b.inertia.y) || !positive(b.inertia.z))
+      refuse("its moments of inertia must be positive and finite");
+    if (elastic.stiffness == 0 && !positive(elastic.young * b.radius))
+      refuse("its stiffness, young * radius, must be positive and finite");
+  }
+
+  void add_sphere(const std::string& at, const SphereSpec& s) {
+    add_ball(vec(at, "position", s.position), number(at, "radius", s.radius, Range::positive),
+             index_of(s.material), s.fixed);
     Body<Real>& b = out_.bodies.back();
-    b.velocity = vec(s.velocity);
-    b.angular_velocity = vec(s.angular_velocity);
+    b.velocity = vec(at, "velocity", s.velocity);
+    b.angular_velocity = vec(at, "angular_velocity", s.angular_velocity);
     if (s.mass) {
-      b.mass = evaluate_(*s.mass);
+      b.mass = number(at, "mass", *s.mass, Range::positive);
       const Real moment = dem::sphere_inertia(b.mass, b.radius);
       b.inertia = {moment, moment, moment};
     }
     if (s.inertia) {
-      b.inertia = vec(*s.inertia);
+      b.inertia = vec(at, "inertia", *s.inertia, Range::positive);
       b.aspherical = true;
     }
+    check_last_ball(at);
   }
 
-  void add_facet(const dem::Facet<Real>& facet, int material) {
+  void add_facet(const std::string& at, const dem::Facet<Real>& facet, int material) {
+    if (!has_area(facet))
+      throw SceneFault(at + " (body " + std::to_string(out_.bodies.size()) +
+                       "): the facet has no area: its corners must not lie on one line");
     Body<Real> b;
     b.shape = Shape::facet;
     b.material = material;
@@ -194,78 +239,112 @@ class Assembler {
     out_.bodies.push_back(b);
   }
 
-  void add_box(const BoxSpec& s) {
+  void add_facet_spec(const std::string& at, const FacetSpec& f) {
+    add_facet(at,
+              {vec(at, "vertices[0]", f.vertices[0]), vec(at, "vertices[1]", f.vertices[1]),
+               vec(at, "vertices[2]", f.vertices[2])},
+              index_of(f.material));
+  }
+
+  void add_box(const std::string& at, const BoxSpec& s) {
     Body<Real> b;
     b.shape = Shape::box;
     b.material = index_of(s.material);
-    b.position = vec(s.centre);
-    b.half_size = vec(s.half_size);
-    const dem::Vec3<Real> axis = vec(s.axis);
-    b.orientation = dem::from_angle_axis(radians(s.angle), axis / dem::norm(axis));
+    b.position = vec(at, "centre", s.centre);
+    b.half_size = vec(at, "half_size", s.half_size, Range::positive);
+    const dem::Vec3<Real> axis = vec(at, "axis", s.axis);
+    const Real length = dem::norm(axis);
+    if (!(length > 0) || !is_finite(length))
+      throw SceneFault(at + ".axis: its length must be positive and finite");
+    b.orientation = dem::from_angle_axis(radians(number(at, "angle", s.angle, Range::any)), axis / length);
     out_.bodies.push_back(b);
   }
 
-  void add_wall(const WallSpec& s) {
+  void add_wall(const std::string& at, const WallSpec& s) {
     Body<Real> b;
     b.shape = Shape::wall;
     b.material = index_of(s.material);
     b.axis = s.axis;
-    b.position[static_cast<std::size_t>(s.axis)] = evaluate_(s.position) + Real(0);
-    b.velocity[static_cast<std::size_t>(s.axis)] = evaluate_(s.velocity) + Real(0);
+    b.position[static_cast<std::size_t>(s.axis)] = number(at, "position", s.position, Range::any) + Real(0);
+    b.velocity[static_cast<std::size_t>(s.axis)] = number(at, "velocity", s.velocity, Range::any) + Real(0);
     out_.bodies.push_back(b);
   }
 
-  void generate(const Generator& g) {
-    const int material = index_of(g.material);
-    if (g.kind == GeneratorKind::facet_box) {
-      for (const auto& facet : facet_box(vec(g.centre), vec(g.half_size))) add_facet(facet, material);
-    } else if (g.kind == GeneratorKind::hexagonal_ball) {
-      const Real radius = evaluate_(g.radius);
-      for (const auto& p :
-           hexagonal_ball(radius, evaluate_(g.gap), evaluate_(g.ball_radius), vec(g.corner))) {
-        add_ball(p, radius, material, false);
-      }
-    } else {
-      for (const auto& node : grid<Real>(g.counts, vec(g.spacing), vec(g.corner), evaluate_(g.jitter),
-                                         evaluate_(g.radius), evaluate_(g.radius_spread), g.seed)) {
-        add_ball(node.position, node.radius, material, node.i < g.fixed_layers);
-      }
+  void generate(const std::string& at, const Generator& g) {
+    if (g.kind == GeneratorKind::facet_box) return generate_facet_box(at, g);
+    if (g.kind == GeneratorKind::hexagonal_ball) return generate_hexagonal_ball(at, g);
+    generate_grid(at, g);
+  }
+
+  void generate_facet_box(const std::string& at, const Generator& g) {
+    const auto facets =
+        facet_box(vec(at, "centre", g.centre), vec(at, "half_size", g.half_size, Range::positive));
+    claim(at, facets.size());
+    for (const auto& facet : facets) add_facet(at, facet, index_of(g.material));
+  }
+
+  void generate_hexagonal_ball(const std::string& at, const Generator& g) {
+    const Real radius = number(at, "radius", g.radius, Range::positive);
+    const HexagonalBall<Real> ball{radius, number(at, "gap", g.gap, Range::not_negative),
+                                   number(at, "ball_radius", g.ball_radius, Range::positive),
+                                   vec(at, "corner", g.corner)};
+    const auto counts = hexagonal_counts(ball);
+    if (!counts)
+      throw SceneTooLarge(at + ": more than " + std::to_string(most_lattice_planes) +
+                          " spheres side by side, or a distance beyond the type of the run");
+    claim(at, points_inside(*counts));
+    const std::size_t before = out_.bodies.size();
+    for (const auto& p : hexagonal_ball(ball, *counts)) {
+      add_ball(p, radius, index_of(g.material), false);
+      check_last_ball(at);
+    }
+    if (out_.bodies.size() == before) throw SceneFault(at + ": no sphere fits into the ball");
+  }
+
+  void generate_grid(const std::string& at, const Generator& g) {
+    std::uint64_t count = 1;
+    for (const int along : g.counts) count *= static_cast<std::uint64_t>(along);
+    claim(at, count);
+    for (const auto& node :
+         grid<Real>(g.counts, vec(at, "spacing", g.spacing), vec(at, "corner", g.corner),
+                    number(at, "jitter", g.jitter, Range::not_negative),
+                    number(at, "radius", g.radius, Range::positive),
+                    number(at, "radius_spread", g.radius_spread, Range::below_one), g.seed)) {
+      add_ball(node.position, node.radius, index_of(g.material), node.i < g.fixed_layers);
+      check_last_ball(at);
     }
   }
 
   void add_bonds() {
     out_.bonds = scene_.bonds;
     if (scene_.bond_reach) {
-      const Real reach = evaluate_(*scene_.bond_reach);
-      const auto count = static_cast<int>(out_.bodies.size());
-      for (int i = 0; i < count; ++i) {
-        for (int j = i + 1; j < count; ++j) {
-          const Body<Real>& a = out_.bodies[static_cast<std::size_t>(i)];
-          const Body<Real>& b = out_.bodies[static_cast<std::size_t>(j)];
-          if (a.shape != Shape::sphere || b.shape != Shape::sphere || (a.fixed && b.fixed)) continue;
-          const Real far = reach * (a.radius + b.radius);
-          if (dem::squared_norm(b.position - a.position) < far * far) out_.bonds.push_back({i, j});
-        }
-      }
+      const Real reach = number("contacts", "bond_reach", *scene_.bond_reach, Range::positive);
+      bond_near(out_.bodies, reach, allow_large_, out_.bonds);
     }
     const auto key = [](const Bond& b) { return std::pair(b.first, b.second); };
     std::sort(out_.bonds.begin(), out_.bonds.end(),
               [&](const Bond& a, const Bond& b) { return key(a) < key(b); });
     const auto same = [&](const Bond& a, const Bond& b) { return key(a) == key(b); };
     out_.bonds.erase(std::unique(out_.bonds.begin(), out_.bonds.end(), same), out_.bonds.end());
+    refuse_bonds_of_no_length(out_.bodies, out_.bonds);
+    if (scene_.between == ContactsBetween::all) refuse_coincident(out_.bodies);
   }
 
   const Scene& scene_;
+  bool allow_large_;
   RoundedEvaluator<Real> evaluate_;
+  std::uint64_t claimed_ = 0;
   Assembly<Real> out_;
 };
 
 }  // namespace detail
 
-// A scene that read_scene() accepted always assembles.
+// The scene's numbers in Real.  Throws a SceneFault that names the key or the body where one of them, or what
+// follows from it, is out of its range in this type, and SceneTooLarge before the memory is taken where the
+// scene needs more than is taken without `allow_large`.
 template <RealType Real>
-[[nodiscard]] Assembly<Real> assemble(const Scene& scene) {
-  return detail::Assembler<Real>(scene).run();
+[[nodiscard]] Assembly<Real> assemble(const Scene& scene, bool allow_large = false) {
+  return detail::Assembler<Real>(scene, allow_large).run();
 }
 
 }  // namespace ulpgate::scenes

@@ -21,6 +21,23 @@ struct ExpressionError : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+// Why a constant cannot have this name; empty where it can.  A name that the language has itself would never
+// be looked up, or would stand for something else than it says.
+[[nodiscard]] inline std::string constant_name_fault(std::string_view name) {
+  for (const std::string_view taken :
+       {"pi", "sqrt", "sin", "cos", "tan", "exp", "log", "nan", "inf", "infinity"}) {
+    if (name == taken)
+      return "a constant cannot be called '" + std::string(name) + "', which means something else";
+  }
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_')
+      return "a constant's name is of letters, digits and '_'";
+  }
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0)
+    return "a constant's name begins with a letter or '_'";
+  return "";
+}
+
 template <RealType Real>
 class Evaluator {
  public:

@@ -4,41 +4,77 @@
 #include <Random123/philox.h>
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "kernels/dem/formulas/flat_geometry.hpp"
+#include "kernels/scenes/reader/scene_fault.hpp"
 
 namespace ulpgate::scenes {
 
-// Centres of a hexagonal closest packing of spheres (radius r, surfaces `gap` apart, m) that lie wholly in
-// the ball of `ball_radius` about the origin.  Lattice a/2 (2i + (j+k) mod 2, sqrt3 (j + (k mod 2)/3), 2
-// sqrt6/3 k), a = 2r + gap, counted from `corner`.  J. H. Conway & N. J. A. Sloane, Sphere Packings, Lattices
-// and Groups (1999).
+// Hexagonal closest packing of spheres (radius r, surfaces `gap` apart, m) that lie wholly in the ball of
+// `ball_radius` about the origin.  Lattice a/2 (2i + (j+k) mod 2, sqrt3 (j + (k mod 2)/3), 2 sqrt6/3 k), a =
+// 2r + gap, counted from `corner`.  J. H. Conway & N. J. A. Sloane, Sphere Packings, Lattices and Groups
+// (1999).
 template <RealType Real>
-[[nodiscard]] std::vector<dem::Vec3<Real>> hexagonal_ball(const Real& r, const Real& gap,
-                                                          const Real& ball_radius,
-                                                          const dem::Vec3<Real>& corner) {
-  using std::sqrt;
-  const Real a = 2 * r + gap;
-  const Real sqrt3 = sqrt(Real(3));
-  const Real layer = 2 * sqrt(Real(6)) / 3;
-  const auto along = [&](const Real& step, const Real& from) {
+struct HexagonalBall {
+  Real r, gap, ball_radius;
+  dem::Vec3<Real> corner;
+
+  [[nodiscard]] Real spacing() const { return 2 * r + gap; }
+  [[nodiscard]] static Real row() {
+    using std::sqrt;
+    return sqrt(Real(3));
+  }
+  [[nodiscard]] static Real layer() {
+    using std::sqrt;
+    return 2 * sqrt(Real(6)) / 3;
+  }
+};
+
+inline constexpr int most_lattice_planes = 1 << 20;
+
+// How many planes of the lattice are tried along each axis; empty where there are more than
+// most_lattice_planes, or where the lattice has no finite spacing.
+template <RealType Real>
+[[nodiscard]] std::optional<std::array<int, 3>> hexagonal_counts(const HexagonalBall<Real>& ball) {
+  const Real a = ball.spacing();
+  const std::array<Real, 3> step{a, Real(ball.row() * a / 2), Real(ball.layer() * a / 2)};
+  std::array<int, 3> counts{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Real& from = ball.corner[axis];
+    if (!(step[axis] > 0) || !is_finite(step[axis])) return std::nullopt;
+    if (!((ball.ball_radius - from) / step[axis] < most_lattice_planes)) return std::nullopt;
     int n = 0;
-    while (from + Real(n) * step <= ball_radius) ++n;
-    return n + 1;
-  };
-  const int ni = along(a, corner.x);
-  const int nj = along(Real(sqrt3 * a / 2), corner.y);
-  const int nk = along(Real(layer * a / 2), corner.z);
+    while (from + Real(n) * step[axis] <= ball.ball_radius) ++n;
+    counts[axis] = n + 1;
+  }
+  return counts;
+}
+
+// About how many of those points lie in the ball: its share, pi/6, of the cube around it.
+[[nodiscard]] inline std::uint64_t points_inside(const std::array<int, 3>& counts) {
+  double points = 0.53;
+  for (const int n : counts) points *= n;
+  return static_cast<std::uint64_t>(points);
+}
+
+template <RealType Real>
+[[nodiscard]] std::vector<dem::Vec3<Real>> hexagonal_ball(const HexagonalBall<Real>& ball,
+                                                          const std::array<int, 3>& counts) {
+  const Real a = ball.spacing();
+  const Real sqrt3 = ball.row();
+  const Real layer = ball.layer();
   std::vector<dem::Vec3<Real>> centres;
-  for (int i = 0; i < ni; ++i) {
-    for (int j = 0; j < nj; ++j) {
-      for (int k = 0; k < nk; ++k) {
+  for (int i = 0; i < counts[0]; ++i) {
+    for (int j = 0; j < counts[1]; ++j) {
+      for (int k = 0; k < counts[2]; ++k) {
         const dem::Vec3<Real> p =
             (a / 2) * dem::Vec3<Real>{Real(2 * i + (j + k) % 2), sqrt3 * (Real(j) + Real(k % 2) / 3),
                                       layer * Real(k)} +
-            corner;
-        if (dem::norm(p) <= ball_radius - r) centres.push_back(p);
+            ball.corner;
+        if (dem::norm(p) <= ball.ball_radius - ball.r) centres.push_back(p);
       }
     }
   }

@@ -16,7 +16,7 @@ Target material_target(Material& m, std::string_view key) {
   if (key == "young") return {&m.young, Range::positive};
   if (key == "stiffness") return {&m.stiffness.emplace(), Range::positive};
   if (key == "poisson") return {&m.poisson, Range::below_one};
-  if (key == "friction_angle") return {&m.friction_angle, Range::not_negative};
+  if (key == "friction_angle") return {&m.friction_angle, Range::acute};
   if (key == "collision_time") return {&m.collision_time, Range::positive};
   if (key == "restitution_normal") return {&m.restitution_normal, Range::unit_open_closed};
   if (key == "restitution_tangential") return {&m.restitution_tangential, Range::unit_open_closed};

@@ -1,6 +1,8 @@
 // Reading and validating a scene.
 #include "kernels/scenes/reader/scene_reader.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
 #include <sstream>
 
@@ -34,6 +36,22 @@ void each_table(Document& document, Fields& root, std::string_view key,
   }
 }
 
+// The name becomes part of the names of files.
+void read_name(Fields& root, Scene& scene) {
+  root.required_string("name", scene.name);
+  const auto allowed = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_' || c == '+' || c == '-';
+  };
+  constexpr std::size_t longest = 100;
+  if (scene.name.empty()) return;
+  if (std::isalnum(static_cast<unsigned char>(scene.name.front())) == 0 || scene.name.size() > longest ||
+      !std::all_of(scene.name.begin(), scene.name.end(), allowed)) {
+    root.fail(root.find("name"), "name",
+              "must be up to " + std::to_string(longest) +
+                  " letters, digits, '.', '_', '+' and '-', a letter or digit first: it names files");
+  }
+}
+
 void read_constants(Document& document, Fields& root, Scene& scene) {
   const toml::node* node = root.find("constants");
   if (node == nullptr) return;
@@ -50,6 +68,10 @@ void read_constants(Document& document, Fields& root, Scene& scene) {
     Expression text;
     fields.number(key, text);
     if (text.empty()) continue;
+    if (const std::string fault = constant_name_fault(key); !fault.empty()) {
+      fields.fail(table->get(key), key, fault);
+      continue;
+    }
     scene.constants.emplace_back(key, text);
     document.constants.define(key, document.constants(text));
   }
@@ -62,7 +84,7 @@ void read_material(Fields& f, Scene& scene) {
   f.number("young", m.young, Range::positive);
   f.number("stiffness", m.stiffness, Range::positive);
   f.number("poisson", m.poisson, Range::below_one);
-  f.number("friction_angle", m.friction_angle, Range::not_negative);
+  f.number("friction_angle", m.friction_angle, Range::acute);
   f.number("collision_time", m.collision_time, Range::positive);
   f.number("restitution_normal", m.restitution_normal, Range::unit_open_closed);
   f.number("restitution_tangential", m.restitution_tangential, Range::unit_open_closed);
@@ -270,7 +292,7 @@ ReadResult read_scene(std::string_view text, std::string_view file) {
   }
   Scene scene;
   Fields root(document, table, "");
-  root.required_string("name", scene.name);
+  read_name(root, scene);
   root.string("title", scene.title);
   read_constants(document, root, scene);
   each_table(document, root, "material", [&](Fields& f) { read_material(f, scene); });

@@ -31,19 +31,8 @@ std::string number_fault(const Evaluator<double>& constants, std::string_view te
     return e.what();
   }
   if (!std::isfinite(value)) return "'" + std::string(text) + "' is not finite";
-  switch (range) {
-    case Range::any:
-      return {};
-    case Range::not_negative:
-      return value >= 0 ? "" : "must not be negative, is " + std::string(text);
-    case Range::positive:
-      return value > 0 ? "" : "must be positive, is " + std::string(text);
-    case Range::unit_open_closed:
-      return value > 0 && value <= 1 ? "" : "must be above 0 and at most 1, is " + std::string(text);
-    case Range::below_one:
-      return value >= 0 && value < 1 ? "" : "must be on [0, 1), is " + std::string(text);
-  }
-  return {};
+  const std::string fault = range_fault(value, range);
+  return fault.empty() ? fault : fault + ", is " + std::string(text);
 }
 
 const toml::node* Fields::find(std::string_view key) {

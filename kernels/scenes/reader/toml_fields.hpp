@@ -10,12 +10,10 @@
 #include <vector>
 
 #include "kernels/scenes/reader/expression.hpp"
+#include "kernels/scenes/reader/scene_fault.hpp"
 #include "kernels/scenes/reader/scene_reader.hpp"
 
 namespace ulpgate::scenes {
-
-// What a number must be, judged in double.
-enum class Range { any, not_negative, positive, unit_open_closed, below_one };
 
 // The document being read: its text for the digits of floats, its constants for validation, the errors found.
 struct Document {
@@ -33,7 +31,7 @@ struct Document {
 // The text of the float at `node`; empty where it cannot be found (a float on a line with wide characters).
 [[nodiscard]] std::string float_text(const Document& document, const toml::node& node);
 
-// Why `text` is not a number in `range`; empty when it is.
+// Why `text`, in double, is not a number in `range`; empty when it is.  The type of a run asks again.
 [[nodiscard]] std::string number_fault(const Evaluator<double>& constants, std::string_view text,
                                        Range range);
 

@@ -9,8 +9,11 @@ _TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 
 def _is_long_list(value):
-    """Functions, kernels, types: the page shows them as tables, or the tables name them anyway."""
-    return isinstance(value, list) and any(isinstance(one, dict) for one in value)
+    """Functions, kernels, types, planned rows: the page shows them as tables, or the tables name them anyway."""
+    entries = value.values() if isinstance(value, dict) else value
+    return isinstance(value, (dict, list)) and any(
+        isinstance(one, dict) for one in entries
+    )
 
 
 def _context_view(context):

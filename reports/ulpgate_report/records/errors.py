@@ -19,6 +19,12 @@ class NothingMeasured(ReportError):
     exit_code = 3
 
 
+class Incomplete(ReportError):
+    """Less is there than the run says it did."""
+
+    exit_code = 3
+
+
 class OutputFailure(ReportError):
     """The result cannot be written."""
 

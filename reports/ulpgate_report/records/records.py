@@ -2,8 +2,13 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from ulpgate_report.records import pendulum_records, reading, scene_records
-from ulpgate_report.records.errors import InvalidInput, NothingMeasured
+from ulpgate_report.records import (
+    checksums,
+    pendulum_records,
+    reading,
+    scene_records,
+)
+from ulpgate_report.records.errors import Incomplete, InvalidInput, NothingMeasured
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,36 @@ def _check_against_context(record, where, context, parts_of, seen, listed):
     seen[key] = where
 
 
+def _check_counts(record, where):
+    """Counts that no measurement can have led to."""
+    judged, histogram = record["judged"], record["histogram"]
+    errors = histogram["exact"] + sum(n for _, n in histogram["buckets"])
+    for wrong, why in (
+        (record["samples"] > record.get("planned", record["samples"]), "planned"),
+        (judged + sum(record["mismatch"].values()) != record["samples"], "samples"),
+        (record["correctly_rounded"] > judged, "correctly_rounded"),
+        (errors != judged, "histogram"),
+        (judged > 0 and record["max_ulp"] is None, "max_ulp"),
+    ):
+        if wrong:
+            raise InvalidInput(f"{where}: {why}: the counts do not add up")
+
+
+def _check_planned(context, parts_of, samples, path):
+    """Of a complete run every row that was planned is there, with all of its samples."""
+    if not context["complete"]:
+        return
+    for token, subjects in context.get("planned", {}).items():
+        for name, strata in subjects.items():
+            for stratum, points in strata.items():
+                for part in parts_of.get(name, ()):
+                    key = (name, part, token, stratum)
+                    if samples.get(key) != points:
+                        raise Incomplete(
+                            f"{path.name}: {' '.join(key)}: {samples.get(key, 0)} of {points} samples that were planned"
+                        )
+
+
 def _load_judged(path, schema_name, context, parts_of, listed):
     """The records of the functions or of the kernels, each one held to the context."""
     seen = {}
@@ -57,6 +92,10 @@ def _load_judged(path, schema_name, context, parts_of, listed):
         found.append(record)
     if all(record["samples"] == 0 for record in found):
         raise NothingMeasured(f"{path}: every record has 0 samples")
+    for where, record in zip(seen.values(), found):
+        _check_counts(record, where)
+    samples = dict(zip(seen, (record["samples"] for record in found)))
+    _check_planned(context, parts_of, samples, path)
     return found
 
 
@@ -128,7 +167,7 @@ def load(directory, name="", chains=None):
     if chains is None:
         chains = pendulum_records.chains_in(directory)
     scenes = scene_records.load(directory, scene_times, chains) if has_scenes else None
-    return Run(
+    run = Run(
         context,
         _load_math(math_path, context) if has_math else [],
         times,
@@ -136,3 +175,6 @@ def load(directory, name="", chains=None):
         scenes,
         _load_pendulum(name, directory, context, chains, scenes),
     )
+    # Last: a line that is refused says more.
+    checksums.check(directory, context)
+    return run

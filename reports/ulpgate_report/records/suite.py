@@ -6,8 +6,8 @@ from ulpgate_report.records.errors import InvalidInput, NothingMeasured
 
 _CONTEXT = "context.json"
 _RECORDS = "*.jsonl"
-# Text of every plan, which differs from run to run and is long.
-_NOT_MERGED = ("plan_text",)
+# Text of every plan, which differs from run to run and is long; checksums of each directory, which were checked.
+_NOT_MERGED = ("plan_text", "planned", "records_checksum", "checksum")
 # Each run has one of its own, though two may be alike.
 _OF_EACH = ("plan",)
 

@@ -15,6 +15,8 @@ def hard_values(record):
             record[name] = None
         record.update(judged=0, argmax=[], argmax_index=None)
         record["histogram"] = {"exact": 0, "buckets": []}
-        record["mismatch"]["nan"] = 1000
+        record.update(correctly_rounded=0, mismatch_first={})
+        record["mismatch"] = dict.fromkeys(record["mismatch"], 0)
+        record["mismatch"]["nan"] = record["samples"]
     if is_at(record, "mpfr150", "uniform"):
         record["max_float_distance"] = 10**400

@@ -16,15 +16,12 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Exit codes are ulpgate's.
 PASS, REGRESSION, BAD_INPUT, INCOMPLETE, ENVIRONMENT = range(5)
 # These are the shards' own.
-RESERVED = ("--shard", "--resume", "--timing", "--json")
-# Beyond the last unit of any plan.
-NO_UNIT = "18446744073709551614/18446744073709551615"
+RESERVED = ("--shard", "--resume", "--timing", "--json", "--dry-run")
 
 
 class Failure(Exception):
@@ -132,19 +129,18 @@ def plan_in(directory):
 
 
 def find_plan(program, math):
-    """Lets the program check the options and name the plan: a shard beyond the last unit measures nothing."""
-    with tempfile.TemporaryDirectory() as scratch:
-        out = pathlib.Path(scratch) / "plan"
-        words = [*math, "--timing", "off", "--shard", NO_UNIT, "--out", out]
-        done = subprocess.run([program, "math", *words], capture_output=True, text=True)
-        if done.returncode != 0:
-            sys.stderr.write(done.stderr)
-            known = 0 < done.returncode <= ENVIRONMENT
-            raise Failure(
-                done.returncode if known else ENVIRONMENT,
-                f"`ulpgate math` does not take these options (exit code {done.returncode}); see above",
-            )
-        return plan_in(out)
+    """Lets the program check the options and name the plan; its hash and the number of its units."""
+    words = [*math, "--timing", "off", "--dry-run", "--out", os.devnull]
+    done = subprocess.run([program, "math", *words], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.stderr.write(done.stderr)
+        known = 0 < done.returncode <= ENVIRONMENT
+        raise Failure(
+            done.returncode if known else ENVIRONMENT,
+            f"`ulpgate math` does not take these options (exit code {done.returncode}); see above",
+        )
+    facts = json.loads(done.stdout)
+    return facts["plan"], facts["units"]
 
 
 def has_resume(program):
@@ -168,6 +164,8 @@ class Job:
         self.out = pathlib.Path(out)
         self.plan = facts["plan"]
         self.shards = facts["shards"]
+        # What stands in OUT may be another plan's, and was given up.
+        self.over = ["--overwrite"] if facts.get("overwrite") else []
         self.threads = facts["threads"]
         self.retries = facts["retries"]
         self.program = facts["program"]
@@ -185,7 +183,10 @@ class Job:
             )
         math = absolute_paths(math)
         program = os.path.abspath(program)
-        plan = find_plan(program, math)
+        plan, units = find_plan(program, math)
+        shards = min(options.shards, units)
+        if shards < options.shards:
+            print(f"note: the plan has {units} units: {shards} shards", file=sys.stderr)
         out = pathlib.Path(os.path.abspath(options.out))
         (out / "shards").mkdir(parents=True, exist_ok=True)
         file = out / "shards/job.json"
@@ -199,7 +200,8 @@ class Job:
             )
         facts = {
             "plan": plan,
-            "shards": options.shards,
+            "shards": shards,
+            "overwrite": options.overwrite,
             "threads": options.threads,
             "retries": options.retries,
             "program": program,
@@ -279,17 +281,10 @@ class Job:
         self.fail_unless_done()
         directories = [str(self.directory(i)) for i in range(self.shards)]
         code = subprocess.run(
-            [self.program, "merge", *directories, "--out", str(self.out)]
+            [self.program, "merge", *directories, "--out", str(self.out), *self.over]
         ).returncode
         if not 0 <= code <= ENVIRONMENT:
             raise Failure(ENVIRONMENT, f"ulpgate merge ended with {code}")
-        if code == PASS:
-            for i in range(self.shards):
-                if self.finished_code(i) == REGRESSION:
-                    for line in (self.directory(i) / "log").read_text().splitlines():
-                        if "disagree" in line:
-                            print(line, file=sys.stderr)
-                    code = REGRESSION
         write_aside(self.merge_file(), f"{code}\n")
         return code
 

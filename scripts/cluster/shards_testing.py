@@ -5,7 +5,7 @@ import pathlib
 import shlex
 import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 SMALL = "--functions sin,pow --types double,float --samples 9000 --seed 4".split()
 WORST = ["--worst-cases", str(ROOT / "ci/worst_cases")]

@@ -118,7 +118,7 @@ def command_of(job, options, extra, indices):
         words += ["--transferfile", str(job.out / "shards/job.json")]
         words += ["--return", f"{job.out}/shards/{{}}-of-{job.shards}"]
     words += extra
-    words += ["python3", str(ROOT / "scripts/run_shard.py"), str(job.out), "{}"]
+    words += ["python3", str(ROOT / "scripts/cluster/run_shard.py"), str(job.out), "{}"]
     return words + ["::::", indices]
 
 

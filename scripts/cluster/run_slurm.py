@@ -119,7 +119,9 @@ def ranges(indices):
 def submit(job, options, extra, name, task, *words):
     """Writes the job's script beside the shards and submits it; its id."""
     script = job.out / f"shards/{name}.sh"
-    run = shlex.join(["python3", str(ROOT / "scripts/run_shard.py"), str(job.out)])
+    run = shlex.join(
+        ["python3", str(ROOT / "scripts/cluster/run_shard.py"), str(job.out)]
+    )
     write_aside(script, f"#!/bin/sh\nexec {run} {task}\n")
     command = ["sbatch", "--parsable", f"--job-name=ulpgate-{name}", *words]
     command += ["--requeue", "--open-mode=append", f"--chdir={job.out}"]

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Runs one shard of a run that run_parallel or run_slurm prepared, or joins them all.
 
-    scripts/run_shard.py OUT INDEX      one attempt
-    scripts/run_shard.py OUT INDEX -r   repeats what fails, as often as the run's --retries says
-    scripts/run_shard.py OUT merge      exit code 3 where a shard is missing
+    scripts/cluster/run_shard.py OUT INDEX      one attempt
+    scripts/cluster/run_shard.py OUT INDEX -r   repeats what fails, as often as the run's --retries says
+    scripts/cluster/run_shard.py OUT merge      exit code 3 where a shard is missing
 
 A shard that is done is not run again; another one goes on from its checkpoints, where `ulpgate math` keeps them.
 Exit codes are ulpgate's; 0 for a shard that is done.

@@ -1,0 +1,38 @@
+// nearest_hint().
+#include "harness/app/shell/nearest_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ulpgate::app {
+
+namespace {
+
+// Levenshtein distance, for suggestions only.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_hint(const std::string& name, const std::vector<std::string>& known) {
+  const auto best =
+      std::ranges::min_element(known, {}, [&](const std::string& k) { return edit_distance(name, k); });
+  if (best == known.end() || edit_distance(name, *best) > std::max<std::size_t>(2, name.size() / 3))
+    return "";
+  return fmt::format("; did you mean '{}'?", *best);
+}
+
+}  // namespace ulpgate::app

@@ -1,0 +1,267 @@
+// The judgement of records by budgets.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "harness/core/gate/budgets.hpp"
+#include "harness/core/gate/limits.hpp"
+#include "harness/core/verdict/verdict.hpp"
+
+namespace ulpgate {
+
+namespace {
+
+class Judge {
+ public:
+  Judge(const Budgets& budgets, MissingRecords missing, const OtherPlan& other_plan)
+      : budgets_(budgets), missing_(missing), other_plan_(other_plan) {}
+
+  void judge(const RowRecord& r) {
+    row_ = budget_key(r);
+    measured_[{r.type, row_, r.stratum}] = r.summary.judged() > 0 ? r.summary.max_error.value : 0;
+    if (measured(r.summary.samples, r.planned) != Standing::pass)
+      add(FindingKind::incomplete, r,
+          fmt::format("{} of {} samples in {}", r.summary.samples, r.planned, r.stratum));
+    const auto type = budgets_.find(r.type);
+    const auto row =
+        type == budgets_.end() ? decltype(type->second.rows.end())() : type->second.rows.find(row_);
+    if (type == budgets_.end() || row == type->second.rows.end() || !row->second.knows(r.stratum)) {
+      add(FindingKind::missing_budget, r,
+          fmt::format("no budget for {}; write one with --update", r.stratum));
+      return;
+    }
+    const Budget& budget = row->second;
+    const auto stratum = find_stratum(r.stratum);
+    const bool same = is_of_plan(r, type->second, budget);
+    if (!same && stratum && is_drawn(*stratum)) {
+      judge_other_plan(r, type->second, budget);
+    } else {
+      judge_same_points(r, type->second, budget);
+    }
+  }
+
+  std::vector<GateFinding> take() {
+    for (const auto& [token, type] : budgets_) {
+      for (const auto& [row, budget] : type.rows) {
+        for (const auto& [stratum, limit] : budget.max_ulp) look_for(token, row, stratum, limit);
+        for (const auto& [stratum, samples] : budget.samples)
+          if (!budget.max_ulp.contains(stratum)) look_for(token, row, stratum, 0);
+      }
+    }
+    std::stable_sort(findings_.begin(), findings_.end(), [](const GateFinding& a, const GateFinding& b) {
+      if (a.kind != b.kind) return a.kind < b.kind;
+      return a.severity > b.severity;
+    });
+    return std::move(findings_);
+  }
+
+ private:
+  void add(FindingKind kind, const RowRecord& r, std::string message, double severity = 0,
+           std::vector<std::string> at = {}) {
+    findings_.push_back({kind, r.type, row_, std::move(message), severity, std::move(at)});
+  }
+
+  // The budgeted strata that no record is of, and drawn ones whose budget could fall.
+  void look_for(const std::string& token, const std::string& row, const std::string& stratum, double limit) {
+    if (missing_ != MissingRecords::fail) return;
+    const auto it = measured_.find({token, row, stratum});
+    if (it == measured_.end()) {
+      findings_.push_back({FindingKind::missing_record,
+                           token,
+                           row,
+                           fmt::format("budgeted but not measured in {}", stratum),
+                           0,
+                           {}});
+      return;
+    }
+    const auto id = find_stratum(stratum);
+    if (id && !is_drawn(*id)) return;
+    if (it->second < 0.5 * limit) {
+      findings_.push_back({FindingKind::could_lower,
+                           token,
+                           row,
+                           fmt::format("measured {:.4g} ULP in {}, budget {:.4g}: lower it with --update",
+                                       it->second, stratum, limit),
+                           0,
+                           {}});
+    }
+  }
+
+  void judge_limit(const RowRecord& r, std::string_view words, double figure, double limit,
+                   std::string_view limit_words) {
+    const Summary& s = r.summary;
+    // Nothing stands for no figure where results were judged.
+    if (figure < 0) {
+      add(FindingKind::incomplete, r,
+          fmt::format("no {} of {} judged results in {}", words, s.judged(), r.stratum));
+    } else if (at_most(figure, limit) != Standing::pass) {
+      const bool normwise = r.subject_class == kernel_class && words.starts_with("error over");
+      add(FindingKind::regression, r,
+          fmt::format("{} {:.6g}, {} {:.6g} ({}: got {}, exact {})", words, figure, limit_words, limit,
+                      r.stratum, r.points.got, r.points.exact),
+          figure / std::max(limit, 1e-300), normwise ? r.points.normwise_argmax : r.points.argmax);
+    }
+  }
+
+  void judge_mismatches(const RowRecord& r, const TypeBudgets& type, const Budget& budget, bool same) {
+    const Summary& s = r.summary;
+    for (std::size_t o = 1; o < outcome_count; ++o) {
+      if (s.outcomes[o] == 0) continue;
+      const auto it = budget.mismatch.find(mismatch_key(r, o));
+      std::uint64_t allowed = it == budget.mismatch.end() ? 0 : it->second;
+      // A class that was never seen is none that another seed may show.
+      if (!same && allowed > 0)
+        allowed = allowed_count(allowed, budgeted_samples(r, type, budget), s.samples);
+      if (s.outcomes[o] <= allowed) continue;
+      const auto first = r.points.first_mismatch.find(static_cast<Outcome>(o));
+      add(FindingKind::regression, r,
+          fmt::format("{} results of class {} in {}, budget {}", s.outcomes[o], outcome_names[o], r.stratum,
+                      allowed),
+          HUGE_VAL, first == r.points.first_mismatch.end() ? std::vector<std::string>{} : first->second);
+    }
+  }
+
+  // Points that the budget was measured at: every figure has its limit.
+  void judge_same_points(const RowRecord& r, const TypeBudgets& type, const Budget& budget) {
+    const Summary& s = r.summary;
+    if (s.judged() > 0) {
+      for (const auto& column : limit_columns()) {
+        const auto& limits = budget.*column.limits;
+        const auto limit = limits.find(r.stratum);
+        // Beyond measure, which the counts above powers of two are for.
+        if (limit != limits.end()) judge_limit(r, column.words, column.figure(s), limit->second, "budget");
+      }
+      if (budget.samples.contains(r.stratum)) judge_tail(r, budget);
+    }
+    judge_mismatches(r, type, budget, true);
+    const auto stratum = find_stratum(r.stratum);
+    if (stratum && !is_drawn(*stratum)) judge_list(r, budget);
+  }
+
+  // Every exponent: a count that the budget does not name is 0.
+  void judge_tail(const RowRecord& r, const Budget& budget) {
+    const auto tail = budget.above.find(r.stratum);
+    for (const int e : tail_exponents) {
+      std::uint64_t allowed = 0;
+      if (tail != budget.above.end()) {
+        const auto it = tail->second.find(e);
+        if (it != tail->second.end()) allowed = it->second;
+      }
+      const std::uint64_t n = count_above(r.summary.histogram, e);
+      if (n <= allowed) continue;
+      add(FindingKind::regression, r,
+          fmt::format("{} results err by more than 2^{} ULP in {}, budget {}", n, e, r.stratum, allowed),
+          static_cast<double>(n) / static_cast<double>(std::max<std::uint64_t>(allowed, 1)), r.points.argmax);
+    }
+  }
+
+  // Losing the hard cases must not pass as an improvement.
+  void judge_list(const RowRecord& r, const Budget& budget) {
+    const auto then = budget.samples.find(r.stratum);
+    if (then != budget.samples.end() && r.planned < then->second) {
+      add(FindingKind::lost_cases, r,
+          fmt::format(
+              "{} arguments in {}, {} when its budget was measured: some were lost; if that is right, "
+              "write the budget anew with --update --reason",
+              r.planned, r.stratum, then->second));
+    }
+    const auto limit = budget.max_ulp.find(r.stratum);
+    if (limit == budget.max_ulp.end()) return;
+    const double found = r.summary.judged() > 0 ? r.summary.max_error.value : 0;
+    if (found >= 0 && found < 0.5 * limit->second) {
+      add(FindingKind::lost_cases, r,
+          fmt::format(
+              "measured {:.4g} ULP in {}, budget {:.4g}: were its worst cases lost?  If they are better "
+              "now, lower the budget with --update",
+              found, r.stratum, limit->second));
+    }
+  }
+
+  void judge_other_plan(const RowRecord& r, const TypeBudgets& type, const Budget& budget) {
+    const std::uint64_t then = budgeted_samples(r, type, budget);
+    if (!other_plan_.accepted) {
+      add(FindingKind::another_plan, r,
+          fmt::format("{} points of seed {} in {}, the budget is of {} of seed {}: give --other-plan to hold "
+                      "them to what no seed exceeds",
+                      r.planned, r.seed, r.stratum, then, type.seed));
+      return;
+    }
+    const Summary& s = r.summary;
+    // A tenth, rounded up: nothing is judged by nothing.
+    if (s.samples < other_plan_.least_samples.value_or((then + 9) / 10)) {
+      add(FindingKind::incomplete, r,
+          fmt::format("{} points in {} are too few to be judged by a budget of {}", s.samples, r.stratum,
+                      then));
+    }
+    const bool part = is_part_of_plan(r, type, budget);
+    judge_mismatches(r, type, budget, part);
+    if (s.judged() == 0) return;
+    if (part && budget.samples.contains(r.stratum)) judge_tail(r, budget);
+    for (const auto& column : limit_columns()) {
+      if (column.bounds == nullptr) continue;
+      // Maxima of some of the budget's points are no larger than of all.
+      const auto& bounds = budget.*(part ? column.limits : column.bounds);
+      const auto bound = bounds.find(r.stratum);
+      if (bound != bounds.end()) {
+        judge_limit(r, column.words, column.figure(s), bound->second, part ? "budget" : "no seed exceeds");
+      } else if (!part && column.limits == &Budget::max_ulp && budget.max_ulp.contains(r.stratum)) {
+        add(FindingKind::missing_budget, r,
+            fmt::format("no bound_ulp for another plan in {}; write one with --update --seeds", r.stratum));
+      }
+    }
+    judge_other_tail(r, budget, then);
+  }
+
+  // The distribution of the errors against the budget's, each with what chance allows.
+  void judge_other_tail(const RowRecord& r, const Budget& budget, std::uint64_t then) {
+    const UlpHistogram& histogram = r.summary.histogram;
+    const std::uint64_t n = r.summary.judged();
+    if (const auto tail = budget.above.find(r.stratum); tail != budget.above.end()) {
+      for (const auto& [e, count] : tail->second) {
+        judge_count(r, count_above(histogram, e), allowed_count(count, then, n), fmt::format("2^{}", e));
+      }
+    }
+    const auto p99 = budget.p99_ulp.find(r.stratum);
+    if (p99 == budget.p99_ulp.end()) return;
+    judge_count(r, count_above_edge(histogram, p99->second), allowed_count((then + 99) / 100, then, n),
+                fmt::format("{:.4g}", p99->second));
+    const auto mean = budget.winsorized_ulp.find(r.stratum);
+    if (mean == budget.winsorized_ulp.end()) return;
+    const WinsorizedMean now = winsorized_mean(histogram, p99->second);
+    const double limit = mean->second + mean_allowance(now.variance, p99->second, n, then);
+    if (at_most(now.mean, limit) == Standing::pass) return;
+    add(FindingKind::regression, r,
+        fmt::format("winsorized mean error {:.4g} ULP in {}, budget {:.4g} and {:.4g} by chance", now.mean,
+                    r.stratum, mean->second, limit - mean->second),
+        now.mean / std::max(limit, 1e-300), r.points.argmax);
+  }
+
+  void judge_count(const RowRecord& r, std::uint64_t n, std::uint64_t allowed, const std::string& edge) {
+    if (n <= allowed) return;
+    add(FindingKind::regression, r,
+        fmt::format(
+            "{} of {} results err by more than {} ULP in {}, by the budget and chance no more than {}", n,
+            r.summary.judged(), edge, r.stratum, allowed),
+        static_cast<double>(n) / static_cast<double>(allowed), r.points.argmax);
+  }
+
+  const Budgets& budgets_;
+  MissingRecords missing_;
+  OtherPlan other_plan_;
+  std::string row_;
+  std::map<std::array<std::string, 3>, double> measured_;  // by type, row, stratum
+  std::vector<GateFinding> findings_;
+};
+
+}  // namespace
+
+std::vector<GateFinding> judge_records(const std::vector<RowRecord>& records, const Budgets& budgets,
+                                       MissingRecords missing, const OtherPlan& other_plan) {
+  Judge judge(budgets, missing, other_plan);
+  for (const RowRecord& r : records) judge.judge(r);
+  return judge.take();
+}
+
+}  // namespace ulpgate
