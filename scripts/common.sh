@@ -11,9 +11,10 @@ fail() {
 }
 
 # Debian's python3 has the packages that setup installs; another python3 may come first on PATH.
+DEBIAN_PYTHON="${ULPGATE_DEBIAN_PYTHON:-/usr/bin/python3}" # the variable is for tests
 find_python() {
   local python
-  for python in "${ULPGATE_PYTHON:-python3}" /usr/bin/python3; do
+  for python in "${ULPGATE_PYTHON:-python3}" "$DEBIAN_PYTHON"; do
     if "$python" -c 'import matplotlib, numpy, jinja2, jsonschema, mpmath, pytest' 2>/dev/null; then
       printf '%s\n' "$python"
       return

@@ -63,7 +63,11 @@ has_boost() {
   compiles -fsyntax-only <<<$'#include <boost/multiprecision/mpfr.hpp>\n#include <boost/version.hpp>\nstatic_assert(BOOST_VERSION >= 108100);'
 }
 has_python_itself() { has_python 'sys; assert sys.version_info >= (3, 11)'; }
+# One Python must have all: two that have a half each are none.  Packages of Debian serve Debian's alone.
 has_python() { # MODULE
-  "${ULPGATE_PYTHON:-python3}" -c "import $1" || /usr/bin/python3 -c "import $1"
+  (find_python) && return
+  local python="${ULPGATE_PYTHON:-python3}"
+  [ -z "$(debian_release)" ] || python="$DEBIAN_PYTHON"
+  "$python" -c "import $1"
 }
 has_tex() { [ -n "$(kpsewhich "$1")" ]; }

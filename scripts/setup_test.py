@@ -43,7 +43,7 @@ class Machine:
             f'case "$1" in install) cat >&2 <<"EOF"\n{text}\nEOF\nexit {code};; esac\n',
         )
 
-    def setup(self, release: str, *words: str):
+    def setup(self, release: str, *words: str, **variables: str):
         self.release.write_text(release)
         done = subprocess.run(
             [ROOT / "scripts/setup", *words],
@@ -56,6 +56,7 @@ class Machine:
                 "TMPDIR": str(self.programs.parent),
                 "CXX": "false",
                 "ULPGATE_OS_RELEASE": str(self.release),
+                **variables,
             },
         )
         return done.returncode, done.stderr
@@ -84,6 +85,19 @@ def test_debian_gets_the_packages_of_its_release(machine, release, boost):
     assert [w for w in words if w.startswith("libboost")] == [boost]
     assert "--no-remove" in words and "g++" in words and "munge" not in words
     assert "   install  50 %" in err
+
+
+def test_modules_that_two_pythons_share_are_installed_for_one(machine):
+    with_it = '[ "$1" = -c ] && case "$2" in *import\\ %s) exit 0;; esac\n'
+    machine.program("python3", with_it % "jinja2" + "exit 1\n")
+    debian = machine.programs.parent / "debian_python"
+    debian.write_text("#!/bin/sh\n" + with_it % "numpy" + "exit 1\n")
+    debian.chmod(0o755)
+    machine.apt()
+    code, err = machine.setup(DEBIAN_12, ULPGATE_DEBIAN_PYTHON=str(debian))
+    words = machine.installed()
+    assert "python3-jinja2" in words and "python3-numpy" not in words
+    assert code == 1 and "no python3 with" in err, "nothing was really installed"
 
 
 def test_a_boost_that_is_installed_and_new_enough_is_kept(machine):

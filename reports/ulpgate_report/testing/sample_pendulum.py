@@ -53,6 +53,7 @@ def correlation_record(token, dt="1e-5", variant="mass=yade", **changes):
         "scene": SCENE,
         "type": token,
         "against": REFERENCE,
+        "integrator": "leapfrog",
         "dt": dt,
         "variant": variant,
         "t_s": t_s,
