@@ -5,10 +5,12 @@
   scripts/mutate --report --work W                                  # what the log holds; runs nothing
   scripts/mutate --list --only 'harness/core/gate/*'                # the mutants themselves
 
-Mutants are taken in an order that the seed decides and edits elsewhere do not change.  Each is tried in a copy of the
-checkout under --work (never in the checkout), built incrementally, and run against the tests of scripts/mutation/plan.toml
-up to the first that fails.  Outcomes: killed (a test failed, crashed or ran past its limit), not_compiled, same_code (all
-programs are the same bytes: the mutant changes nothing), survived.  Survivors that were read and change no result stand in
+Mutants are taken in an order that the seed decides and edits elsewhere do not change.  They are tried in copies of the
+checkout under --work (never in the checkout).  Almost all go into one build, each behind a switch that the environment sets,
+and are run against the test cases of scripts/mutation/plan.toml that come by their place, the quick ones first.  Those that
+cannot wait for a switch (a constant that a type depends on) are then built one after another and run against all the tests up
+to the first that fails.  Outcomes: killed (a test failed, crashed or ran past its limit), not_compiled, same_code (all programs
+are the same bytes: the mutant changes nothing), survived.  Survivors that were read and change no result stand in
 scripts/mutation/accepted.toml with the reason.
 
 Exit: 0 no survivor but accepted ones, 1 others, 2 bad usage, 3 nothing tried or interrupted, 4 the tests fail without a mutant.
@@ -28,6 +30,7 @@ import tomllib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from operators import Mutant, find_mutants  # noqa: E402
+from together import Together  # noqa: E402
 from trial import Plan, Workshop, read_plan  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -127,38 +130,74 @@ def report(entries: list[dict], accepted: list[dict]) -> int:
     return len(unread)
 
 
-def try_all(shops: list[Workshop], mutants: list[Mutant], log: pathlib.Path) -> None:
-    free: queue.Queue[Workshop] = queue.Queue()
-    for shop in shops:
-        free.put(shop)
+def say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+def try_all(todo: list, trials: list, log: pathlib.Path) -> None:
+    """Tries each of `todo` by one of `trials`, as many at once; `todo` holds (mutant, what a trial is called with)."""
+    free: queue.Queue = queue.Queue()
+    for trial in trials:
+        free.put(trial)
     lock = threading.Lock()
     done = 0
 
-    def one(mutant: Mutant) -> None:
+    def one(mutant: Mutant, what) -> None:
         nonlocal done
-        shop = free.get()
+        trial = free.get()
         try:
-            entry = entry_of(mutant) | shop.attempt(mutant)
+            entry = entry_of(mutant) | trial(what)
         finally:
-            free.put(shop)
+            free.put(trial)
         with lock:
             append(log, entry)
             done += 1
-            print(
-                f"[{done}/{len(mutants)}] {entry['outcome']:12} {entry['seconds']:6.1f} s  {mutant.file}:{mutant.line}"
-                f"  {entry['by']}",
-                file=sys.stderr,
-                flush=True,
+            say(
+                f"[{done}/{len(todo)}] {entry['outcome']:12} {entry['seconds']:6.1f} s  {mutant.file}:{mutant.line}"
+                f"  {entry['by']}"
             )
 
-    with concurrent.futures.ThreadPoolExecutor(len(shops)) as pool:
-        running = [pool.submit(one, m) for m in mutants]
+    with concurrent.futures.ThreadPoolExecutor(len(trials)) as pool:
+        running = [pool.submit(one, *item) for item in todo]
         try:
             for future in concurrent.futures.as_completed(running):
                 future.result()
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
+
+
+def try_together(
+    todo: list[Mutant],
+    plan: Plan,
+    options: argparse.Namespace,
+    work: pathlib.Path,
+    log: pathlib.Path,
+) -> list[Mutant]:
+    """Tries in one build what can be; the others."""
+    together = Together(plan, options.checkout, work / "together", options.jobs)
+    together.prepare(todo, say)
+    ready = together.ready()
+    others = {m.key for m in todo} - {w.mutant.key for w in ready}
+    say(f"{len(ready)} mutants in one build, {len(others)} need one of their own")
+    try_all([(w.mutant, w) for w in ready], [together.attempt] * options.jobs, log)
+    return [m for m in todo if m.key in others]
+
+
+def try_alone(
+    todo: list[Mutant],
+    plan: Plan,
+    options: argparse.Namespace,
+    work: pathlib.Path,
+    log: pathlib.Path,
+) -> None:
+    shops = [
+        Workshop(plan, options.checkout, work / str(i))
+        for i in range(min(options.jobs, len(todo)))
+    ]
+    for shop in shops:
+        shop.prepare()
+    try_all([(m, m) for m in todo], [shop.attempt for shop in shops], log)
 
 
 def positive(text: str) -> int:
@@ -193,7 +232,12 @@ def arguments() -> argparse.ArgumentParser:
         "--jobs",
         type=positive,
         default=1,
-        help="trees worked in at once, each built once (1)",
+        help="mutants tried at once (1); those that need a build of their own have as many trees",
+    )
+    parser.add_argument(
+        "--alone",
+        action="store_true",
+        help="builds each mutant on its own, whether it needs that or not",
     )
     parser.add_argument(
         "--work",
@@ -257,18 +301,14 @@ def main() -> int:
         todo = [m for m in chosen if m.key not in known or m.key in again]
         if todo:
             work.mkdir(parents=True, exist_ok=True)
-            shops = [
-                Workshop(plan, options.checkout, work / str(i))
-                for i in range(min(options.jobs, len(todo)))
-            ]
             try:
-                for shop in shops:
-                    shop.prepare()
+                if not options.alone:
+                    todo = try_together(todo, plan, options, work, log)
+                if todo:
+                    try_alone(todo, plan, options, work, log)
             except RuntimeError as reason:
                 print(f"scripts/mutate: {reason}", file=sys.stderr)
                 return 4
-            try:
-                try_all(shops, todo, log)
             except KeyboardInterrupt:
                 print(
                     "interrupted: the same command goes on from here", file=sys.stderr

@@ -10,6 +10,7 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import mutate  # noqa: E402
 import operators  # noqa: E402
+import weave  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -89,7 +90,8 @@ PLAN = """rooms = ["room"]
 endings = [".cpp"]
 left_out = ["*_test.cpp"]
 configure = ["mkdir", "-p", "{build}"]
-build = ["g++", "-O2", "-w", "-o", "{build}/{target}", "{tree}/room/toy_test.cpp"]
+build = ["sh", "-c", "g++ -O2 -w {flags} -o {build}/{target} {tree}/room/toy_test.cpp {link}"]
+keep_going = []
 build_limit = 20
 [[tests]]
 name = "toy"
@@ -148,7 +150,7 @@ def test_a_toy_project_from_survivors_to_accepted_ones(toy):
     assert found["return 6;"]["outcome"] in {"survived", "same_code"}
     assert found["return a >= b ? a : b;"]["outcome"] in {"survived", "same_code"}
     assert (toy / "checkout/room/toy.cpp").read_text() == TOY
-    assert (toy / "work/0/tree/room/toy.cpp").read_text() == TOY
+    assert {e["way"] for e in found.values()} == {"together"}
     open_ones = [e for e in found.values() if e["outcome"] == "survived"]
     assert f"{len(open_ones)} not" in first.stdout
 
@@ -173,6 +175,64 @@ def test_an_interrupted_log_goes_on(toy):
     log.write_text(lines[0] + "\n" + lines[1][:20])
     assert run(toy, "--sample", "2").returncode in {0, 1}
     assert len(mutate.read_log(log)) == 2
+
+
+def test_together_and_alone_mutants_end_alike(toy):
+    run(toy)
+    together = {k: e["outcome"] for k, e in entries(toy).items()}
+    (toy / "work/log.jsonl").unlink()
+    run(toy, "--alone")
+    assert (toy / "work/0/tree/room/toy.cpp").read_text() == TOY
+    alone = {k: e["outcome"] for k, e in entries(toy).items()}
+    assert {k: v.replace("same_code", "survived") for k, v in alone.items()} == together
+
+
+@pytest.mark.parametrize(
+    "text, woven",
+    [
+        ("int f(int a) { return a + 1; }", "return ({on} ? (a - 1) : (a + 1));"),
+        ("void f() { if (a < b) g(); }", "if (({on} ? (a <= b) : (a < b))) g();"),
+        ("void f() { for (;;) x += 1; }", "for (;;) ({on} ? (x -= 1) : (x += 1));"),
+        ("void f() { a = {1, b}; }", "a = {({on} ? (2) : (1)), b};"),
+        ("void f() {\n  g();  // all\n}", "  { if (!{on}) { g(); } }  // all"),
+        ("constexpr int a = 3;", "const int a = ({on} ? (4) : (3));"),
+        (
+            "void f() { x = [&] { return 2; }() + y; }",
+            "{ return ({on} ? (3) : (2)); }()",
+        ),
+    ],
+)
+def test_a_mutant_stands_behind_its_switch(text, woven):
+    mutant = operators.find_mutants("a.cpp", text)[0]
+    found = weave.weave(text, weave.place(text, [(7, mutant)]))
+    assert woven.replace("{on}", "ulpgate_mutation::on(7)") in found
+
+
+def test_mutants_inside_one_another_are_all_woven_and_lines_stay():
+    text = "int f(int a) {\n  return g(a + 1,  // one\n           2) - 3;\n}\n"
+    mutants = list(enumerate(operators.find_mutants("a.cpp", text), start=1))
+    woven = weave.weave(text, weave.place(text, mutants))
+    assert all(woven.count(f"on({n})") == 1 for n, _ in mutants)
+    assert woven.count("\n") == text.count("\n")
+
+
+CONSTANT = """template <int n> int size() { return n; }
+constexpr int twice(int n) { return n * 2; }
+int f() { return size<twice(4)>() + twice(2); }
+int g() { constexpr int n = 3; int a[n]; return sizeof a; }
+"""
+
+
+def test_what_cannot_wait_for_a_switch_is_built_on_its_own(toy):
+    (toy / "checkout/room/toy.cpp").write_text(CONSTANT)
+    test = '#include "toy.cpp"\nint main() { return f() == 12 && g() == 12 ? 0 : 1; }\n'
+    (toy / "checkout/room/toy_test.cpp").write_text(test)
+    result = run(toy)
+    assert result.returncode == 0, result.stdout + result.stderr
+    found = entries(toy)
+    ways = {k: e.get("way", "alone") for k, e in found.items()}
+    assert {e["outcome"] for e in found.values()} == {"killed"}, result.stderr
+    assert set(ways.values()) == {"together", "alone"}, ways
 
 
 def test_tests_that_fail_without_a_mutant_are_said(toy):

@@ -32,6 +32,7 @@ class Plan:
     configure: list[str]
     build: list[str]
     build_limit: float
+    keep_going: list[str]  # what the build takes so that it shows all errors
     tests: list[Test]
 
 
@@ -45,7 +46,12 @@ def read_plan(file: pathlib.Path) -> Plan:
 PATIENCE = 10
 
 
-def run(command: list[str], limit: float) -> tuple[int | None, str]:
+def run(
+    command: list[str],
+    limit: float,
+    environment: dict[str, str] | None = None,
+    directory: pathlib.Path | str | None = None,
+) -> tuple[int | None, str]:
     """Exit status and output; None where a process computed for longer than `limit` seconds, or nothing came to an end."""
 
     def limited() -> None:
@@ -58,6 +64,8 @@ def run(command: list[str], limit: float) -> tuple[int | None, str]:
         stderr=subprocess.STDOUT,
         text=True,
         errors="replace",
+        env=environment,
+        cwd=directory,
         start_new_session=True,
         preexec_fn=limited,
     ) as process:
@@ -82,6 +90,8 @@ class Workshop:
     plan: Plan
     checkout: pathlib.Path
     folder: pathlib.Path
+    flags: str = ""  # of the compiler
+    link: str = ""  # what every program is linked with besides
     digests: dict[str, str] = field(
         default_factory=dict
     )  # of the programs without a mutant
@@ -95,10 +105,23 @@ class Workshop:
         return self.folder / "build"
 
     def fill(self, text: str, target: str = "") -> str:
-        return text.format(tree=self.tree, build=self.build_folder, target=target)
+        return text.format(
+            tree=self.tree,
+            build=self.build_folder,
+            target=target,
+            flags=self.flags,
+            link=self.link,
+        )
 
-    def synchronise(self) -> None:
-        """Makes the tree the checkout's present state; files that are the same keep their times."""
+    def targets(self) -> list[Test]:
+        """A test of each program."""
+        return list({test.target: test for test in self.plan.tests}.values())
+
+    def command(self, test: Test) -> list[str]:
+        return [self.fill(test.program), *(self.fill(a) for a in test.arguments)]
+
+    def synchronise(self, changed=lambda name, content: content) -> None:
+        """Makes the tree the checkout's present state, as `changed` has it; files that are the same keep their times."""
         listed = subprocess.run(
             ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
             cwd=self.checkout,
@@ -109,7 +132,7 @@ class Workshop:
         names = {n for n in names if (self.checkout / n).is_file()}
         for name in sorted(names):
             source, copy = self.checkout / name, self.tree / name
-            content = source.read_bytes()
+            content = changed(name, source.read_bytes())
             if copy.is_file() and copy.read_bytes() == content:
                 continue
             copy.parent.mkdir(parents=True, exist_ok=True)
@@ -126,10 +149,7 @@ class Workshop:
     def prepare(self) -> None:
         """Builds everything without a mutant and sees that all tests pass; RuntimeError where they do not."""
         self.synchronise()
-        if not (self.build_folder / "CMakeCache.txt").is_file() and self.plan.configure:
-            status, output = run([self.fill(a) for a in self.plan.configure], 600)
-            if status != 0:
-                raise RuntimeError(f"configuring failed:\n{output[-2000:]}")
+        self.configure()
         passed_file = self.folder / "passed.json"
         passed = json.loads(passed_file.read_text()) if passed_file.is_file() else {}
         for test in self.plan.tests:
@@ -151,14 +171,29 @@ class Workshop:
             passed[test.name] = way
             passed_file.write_text(json.dumps(passed))
 
-    def make(self, test: Test, limit: float | None) -> tuple[int | None, str]:
-        return run([self.fill(a, test.target) for a in self.plan.build], limit or 7200)
+    def configure(self) -> None:
+        if (self.build_folder / "CMakeCache.txt").is_file() or not self.plan.configure:
+            return
+        status, output = run([self.fill(a) for a in self.plan.configure], 600)
+        if status != 0:
+            raise RuntimeError(f"configuring failed:\n{output[-2000:]}")
+
+    def make(
+        self, test: Test, limit: float | None, more: list[str] | None = None
+    ) -> tuple[int | None, str]:
+        command = [*self.plan.build, *(more or [])]
+        return run([self.fill(a, test.target) for a in command], limit or 7200)
+
+    def relink(self) -> None:
+        """Links all programs again: what they are linked with besides has changed."""
+        for test in self.targets():
+            pathlib.Path(self.fill(test.program)).unlink()
+            status, output = self.make(test, None)
+            if status != 0:
+                raise RuntimeError(f"{test.target} does not link:\n{output[-2000:]}")
 
     def execute(self, test: Test) -> tuple[int | None, str]:
-        return run(
-            [self.fill(test.program), *(self.fill(a) for a in test.arguments)],
-            test.limit,
-        )
+        return run(self.command(test), test.limit)
 
     def digest(self, test: Test) -> str:
         return hashlib.sha256(
