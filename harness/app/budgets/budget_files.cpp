@@ -188,6 +188,9 @@ std::string file_text(const std::string& token, const TypeBudgets& type) {
       "# Written by `ulpgate gate DIR --budgets DIR --update`; loosened only with `--reason`.\n"
       "[plan]\nsamples = {}\nseed = {}\n",
       token, type.samples, type.seed);
+  if (!type.machine.empty()) text += "\n[machine]\n";
+  for (const auto& [fact, value] : type.machine)
+    text += fmt::format("{} = {}\n", toml_quoted(fact), toml_quoted(value));
   for (const auto& [row, b] : type.rows) {
     text += fmt::format("\n[budget.{}]\n", toml_quoted(row));
     if (!b.implementation.empty())
@@ -210,7 +213,7 @@ TypeBudgets parse_type(const std::string& text, const std::string& file) {
     bool has_seed = false;
     for (const auto& [key, node] : table) {
       const auto* section = node.as_table();
-      if (section == nullptr || (key != "plan" && key != "budget"))
+      if (section == nullptr || (key != "plan" && key != "machine" && key != "budget"))
         bad(file, node, fmt::format("unknown section '{}'", key.str()));
       for (const auto& [name, value] : *section) {
         if (key == "plan") {
@@ -219,6 +222,9 @@ TypeBudgets parse_type(const std::string& text, const std::string& file) {
           (name == "samples" ? type.samples : type.seed) = count_of(file, value, name.str());
           has_seed = has_seed || name == "seed";
           if (type.samples == 0 && name == "samples") bad(file, value, "[plan] samples must not be 0");
+        } else if (key == "machine") {
+          if (!value.is_string()) bad(file, value, fmt::format("[machine] {} must be a text", name.str()));
+          type.machine[std::string(name.str())] = *value.value<std::string>();
         } else {
           const auto* row = value.as_table();
           if (row == nullptr) bad(file, value, fmt::format("budget '{}' must be a table", name.str()));

@@ -3,6 +3,7 @@
 
 #include "harness/app/budgets/budget_files.hpp"
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/machine/machine_facts.hpp"
 #include "harness/app/run/record_verdicts.hpp"
 #include "harness/app/scenes/scene_gate.hpp"
 #include "harness/app/store/records.hpp"
@@ -136,6 +137,7 @@ Verdict update(const GateOptions& o, const RecordSet& set) {
   if (!why.empty()) throw Failure(Standing::another_plan, fmt::format("{}: {}", o.directory, why));
   Budgets measured = measured_budgets(set.records, samples, seed);
   add_bounds_of_seeds(o, measured, seed);
+  for (auto& [token, type] : measured) type.machine = deciding_facts(set.context);
   if (!may_loosen(o, update_budgets(present, measured, o.reason))) return Standing::regression;
   write_budgets(o.budgets, present);
   fmt::print(stderr, "ulpgate: budgets of {} types written to {}\n", present.size(), o.budgets);
@@ -182,6 +184,27 @@ Verdict gate_scenes(const GateOptions& o) {
   return Standing::pass;
 }
 
+// Says where records come from another machine than their budgets: limits that are exceeded by little may be
+// that.
+void note_other_machines(const Budgets& budgets, const RecordSet& set) {
+  const auto here = deciding_facts(set.context);
+  std::map<std::string, std::string> told;  // differences: types
+  for (const auto& [token, type] : budgets) {
+    if (type.machine.empty()) continue;
+    std::string differences;
+    for (const auto& [fact, value] : type.machine) {
+      const auto mine = here.find(fact);
+      if (mine != here.end() && mine->second != value)
+        differences +=
+            fmt::format("{}{} '{}', not '{}'", differences.empty() ? "" : "; ", fact, mine->second, value);
+    }
+    if (!differences.empty()) told[differences] += (told[differences].empty() ? "" : ", ") + token;
+  }
+  for (const auto& [differences, types] : told)
+    fmt::print(stderr, "ulpgate: note: {}: measured on another machine than the budgets: {}\n", types,
+               differences);
+}
+
 Verdict run_gate(const GateOptions& o) {
   if (!o.update && (!o.reason.empty() || !o.seeds.empty()))
     throw Failure(Standing::bad_input, "--reason and --seeds are of --update: nothing is written without it");
@@ -204,6 +227,7 @@ Verdict run_gate(const GateOptions& o) {
     fmt::print(stderr, "ulpgate: note: {}: {} rows were measured with {}, their budgets with {}\n",
                other.type, other.rows, other.measured, other.budgeted);
   }
+  note_other_machines(budgets, set);
   const auto findings = judge_records(set.records, budgets, o.missing(), {o.other_plan, o.least_samples});
   Verdict judged = verdict(o, findings, set.records.size(), set.context.at("complete").get<bool>());
   judged |= oracle_verdict(set.records);

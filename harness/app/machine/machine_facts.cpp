@@ -86,4 +86,16 @@ std::vector<std::string> machine_differences(const Json& there, const Json& here
   return texts;
 }
 
+std::map<std::string, std::string> deciding_facts(const Json& context) {
+  std::map<std::string, std::string> facts;
+  const auto note = [&](const std::string& name, const Json& value) {
+    if (value.is_string() && !value.get_ref<const std::string&>().empty()) facts[name] = value;
+  };
+  for (const auto& [name, version] : context.value("libraries", Json::object()).items()) note(name, version);
+  for (const auto& [file, library] : context.value("loaded", Json::object()).items())
+    note(file, library.value("build_id", Json()));
+  for (const auto* key : {"libm_variants", "instruction_sets", "cpu"}) note(key, context.value(key, Json()));
+  return facts;
+}
+
 }  // namespace ulpgate::app

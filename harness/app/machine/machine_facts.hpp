@@ -1,6 +1,7 @@
 // Machine facts: what else decides a run's numbers beside its plan.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,5 +16,9 @@ namespace ulpgate::app {
 // Empty where both were made by the same program on the same machine.
 [[nodiscard]] std::vector<std::string> machine_differences(const nlohmann::ordered_json& there,
                                                            const nlohmann::ordered_json& here);
+
+// Those of a context's facts that decide the bits of a function's results: versions and build-ids of
+// libraries, variants, processor.
+[[nodiscard]] std::map<std::string, std::string> deciding_facts(const nlohmann::ordered_json& context);
 
 }  // namespace ulpgate::app

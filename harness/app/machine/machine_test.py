@@ -204,6 +204,26 @@ def test_a9_the_identity_names_processor_and_libraries(tmp_path):
         )
 
 
+def test_a9_the_gate_says_that_budgets_are_of_another_machine(tmp_path):
+    assert sin_run(tmp_path / "o", samples=200)[0] == 0
+    gate = ["gate", tmp_path / "o", "--budgets", tmp_path / "b"]
+    assert run(*gate, "--update")[0] == 0
+    code, _, err = run(*gate)
+    assert code == 0 and "another machine" not in err
+    file = tmp_path / "b/double.toml"
+    text = file.read_text()
+    cpu = context_of(tmp_path / "o")["cpu"]
+    assert f'cpu = "{cpu}"' in text
+    file.write_text(text.replace(f'cpu = "{cpu}"', 'cpu = "an older one"'))
+    code, _, err = run(*gate)
+    assert code == 0
+    assert f"double: measured on another machine than the budgets: cpu '{cpu}'" in err
+    assert "libm_variants" not in err
+    file.write_text(text.replace("libm_variants = ", "libm_variants = 3 #"))
+    code, _, err = run(*gate)
+    assert code == 2 and "double.toml:" in err and "[machine] libm_variants" in err
+
+
 # What does not end
 
 

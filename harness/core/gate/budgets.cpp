@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -182,6 +183,10 @@ std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured, con
     TypeBudgets& mine = present[token];
     mine.samples = type.samples;
     mine.seed = type.seed;
+    // Limits of a part measured elsewhere do not move the others.
+    const bool whole =
+        std::ranges::all_of(mine.rows, [&](const auto& row) { return type.rows.contains(row.first); });
+    if (whole) mine.machine = type.machine;
     for (const auto& [row, budget] : type.rows) {
       Budget& old = mine.rows[row];
       const std::string what = rises(old, budget);

@@ -46,6 +46,8 @@ struct TypeBudgets {
   std::uint64_t seed = 0;
   friend bool operator==(const TypeBudgets&, const TypeBudgets&) = default;
   std::map<std::string, Budget> rows;  // "sin", "ctan.re"
+  // What decides bits where the limits were measured, by name; empty where nobody wrote it down.
+  std::map<std::string, std::string> machine;
 };
 using Budgets = std::map<std::string, TypeBudgets>;  // by type token
 

@@ -220,5 +220,53 @@ TEST(Limits, CountsAboveEdgesAndWinsorizedMeans) {
   EXPECT_EQ(winsorized_mean(two, 2).variance, 1);
 }
 
+TEST(SilentPasses, A4AMeanOfCutErrorsRisesOnlyWithAReason) {
+  Budgets present = budgets_of(row("uniform", good_errors(1000, 1)));
+  Budgets measured = present;
+  double& level = measured.at("double").rows.at("sin").winsorized_ulp.at("uniform");
+  level *= 2;
+  const double before = present.at("double").rows.at("sin").winsorized_ulp.at("uniform");
+  const auto raises = update_budgets(present, measured, "");
+  ASSERT_EQ(raises.size(), 1U);
+  EXPECT_NE(raises[0].what.find("winsorized_ulp"), std::string::npos) << raises[0].what;
+  EXPECT_EQ(present.at("double").rows.at("sin").winsorized_ulp.at("uniform"), before);
+  (void)update_budgets(present, measured, "a better estimate");
+  EXPECT_EQ(present.at("double").rows.at("sin").winsorized_ulp.at("uniform"), level);
+}
+
+TEST(SilentPasses, A13OnlyWhatIsExactForEverySeedIsBoundByNothing) {
+  const std::vector<double> exact(1000, 0.0);
+  const auto seeds_with = [&](double last) {
+    std::vector<std::vector<RowRecord>> seeds;
+    for (std::uint64_t s = 101; s <= 105; ++s) seeds.push_back({row("uniform", exact, s)});
+    auto other = exact;
+    other[500] = last;
+    seeds.push_back({row("uniform", other, 106)});
+    return seeds;
+  };
+  const auto bounds = [](const Budgets& b) { return b.at("double").rows.at("sin").bound_ulp; };
+  Budgets budgets = budgets_of(row("uniform", exact));
+  add_bounds(budgets, seeds_with(0));
+  ASSERT_TRUE(bounds(budgets).contains("uniform"));
+  EXPECT_EQ(bounds(budgets).at("uniform"), 0);
+  budgets = budgets_of(row("uniform", exact));
+  add_bounds(budgets, seeds_with(0.5));
+  EXPECT_FALSE(bounds(budgets).contains("uniform")) << "one seed met an error";
+  budgets = budgets_of(row("uniform", good_errors(1000, 1)));
+  add_bounds(budgets, seeds_with(0));
+  EXPECT_FALSE(bounds(budgets).contains("uniform")) << "the budget's own seed met errors";
+}
+
+TEST(SilentPasses, AFunctionsErrorOverConditionIsReproducedAtItsLargestError) {
+  RowRecord r = row("uniform", good_errors(100, 1));
+  const Budgets budgets = budgets_of(r);
+  r.points.argmax = {"0x1p+0"};
+  r.points.normwise_argmax = {"0x1p+1"};
+  r.summary.max_error_over_condition += 1;
+  const auto findings = judged(r, budgets);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].at, r.points.argmax);
+}
+
 }  // namespace
 }  // namespace ulpgate

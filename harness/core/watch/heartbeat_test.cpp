@@ -29,6 +29,19 @@ TEST(Heartbeat, AThreadThatGetsOnIsLeftAlone) {
   }
 }
 
+TEST(Heartbeat, APlaceOfFewerWordsEndsWithTheLast) {
+  {
+    const WorkPlace place("sin", "double", "");
+    EXPECT_STREQ(WorkPlace::name(), "sin double");
+  }
+  {
+    const WorkPlace place("sin", "", "");
+    EXPECT_STREQ(WorkPlace::name(), "sin");
+  }
+  const WorkPlace none("", "", "");
+  EXPECT_STREQ(WorkPlace::name(), "");
+}
+
 TEST(Heartbeat, AThreadWithoutWorkIsNotWatched) {
   Heartbeat::mine().beat(WorkPhase::none);
   Watch watch;

@@ -80,8 +80,6 @@ template <RealType Real>
   }
   if (!moments && !spins && !scene.records("orientation")) {
     leave(p.orientation, "orientation", "no force depends on it and it is not recorded");
-  } else if (!p.rotation && !scene.records("orientation")) {
-    leave(p.orientation, "orientation", "nothing rotates");
   }
   if (scene.law != scenes::ContactLaw::viscoelastic) {
     leave(p.viscosity, "viscosity", "the contact law has no dashpot");

@@ -138,6 +138,7 @@ TEST(Problems, RejectParametersWithoutASolution) {
   EXPECT_THROW((void)harmonic_oscillator(0.0), std::invalid_argument);
   EXPECT_THROW((void)pendulum(1.0, 1.0), std::invalid_argument);
   EXPECT_THROW((void)pendulum(-1.0, 0.5), std::invalid_argument);
+  EXPECT_NO_THROW((void)kepler(1.0)) << "a circle";
   EXPECT_THROW((void)kepler(1.5), std::invalid_argument);
   EXPECT_THROW((void)kepler(0.5), std::invalid_argument);
   EXPECT_THROW((void)kepler(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);

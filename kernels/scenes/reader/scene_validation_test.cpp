@@ -211,5 +211,27 @@ TEST(SceneValidation, B5StepsBeyondCountingAreCounted) {
   EXPECT_THROW((void)steps_between_records(scene), SceneFault);
 }
 
+TEST(SceneInTheTypeOfTheRun, AMomentOfInertiaThatUnderflowsIsRefused) {
+  Scene scene = read("radius = \"R\"", "radius = 1e-10");
+  EXPECT_EQ(fault_of<double>(scene), "");
+  EXPECT_NE(fault_of<float>(scene).find("moments of inertia"), std::string::npos) << fault_of<float>(scene);
+}
+
+TEST(SceneInTheTypeOfTheRun, AnIntegerMayBeAtTheEndsOfItsRange) {
+  const auto errors = [](const std::string& seed) {
+    const std::string grid =
+        "[[generator]]\nkind = \"grid\"\nmaterial = \"m\"\nradius = 0.001\ncounts = [2, 1, 1]\n"
+        "spacing = [1, 1, 1]\ncorner = [0, 1, 0]\nseed = " +
+        seed + "\n";
+    std::string text = good;
+    return read_scene(text.insert(text.find("[[wall]]"), grid), "t.toml").errors;
+  };
+  for (const char* seed : {"0", "1", "2147483647"}) {
+    const auto found = errors(seed);
+    EXPECT_TRUE(found.empty()) << seed << ": " << found.front().text();
+  }
+  for (const char* seed : {"-1", "2147483648"}) EXPECT_FALSE(errors(seed).empty()) << seed;
+}
+
 }  // namespace
 }  // namespace ulpgate::scenes
