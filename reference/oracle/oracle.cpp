@@ -165,13 +165,14 @@ long exponent_of(mpfr_srcptr x) {
   return mpfr_regular_p(x) ? static_cast<long>(mpfr_get_exp(x)) : 0L;
 }
 
-// arg z in units of pi/4 where z lies on an axis or a diagonal.
+// arg z in units of pi/4 where z lies on an axis or a diagonal; -pi below the cut, at -x - 0i.
 std::optional<int> eighths_of_turn(mpc_srcptr z) {
   const int re = mpfr_sgn(mpc_realref(z));
   const int im = mpfr_sgn(mpc_imagref(z));
   if (re != 0 && im != 0 && mpfr_cmpabs(mpc_realref(z), mpc_imagref(z)) != 0) return std::nullopt;
   if (re > 0) return im;
-  return re == 0 ? 2 * im : im == 0 ? 4 : 3 * im;
+  if (im == 0) return mpfr_signbit(mpc_imagref(z)) != 0 ? -4 : 4;
+  return re == 0 ? 2 * im : 3 * im;
 }
 
 bool is_of_modulus_one(mpc_srcptr z) {

@@ -124,6 +124,20 @@ TEST(Judge, MoreThanHalfAnUlpIsMoreThanHalf) {
   EXPECT_TRUE(up.correctly_rounded);
 }
 
+// One step above the largest number where that is the right one.
+TEST(Judge, AnInfinityNextToTheThresholdIsOneStepOff) {
+  for (const char* sign : {"", "-"}) {
+    const auto at = [&](const char* text) { return value((sign + std::string(text)).c_str()); };
+    const Judgement j = judge(at("@Inf@"), at("0x1.fffffffffffff4p+1023"), float_format<double>());
+    EXPECT_EQ(j.distance, 1);
+    EXPECT_FALSE(j.correctly_rounded);
+    const Judgement largest =
+        judge(at("0x1.fffffffffffffp+1023"), at("0x1.fffffffffffffcp+1023"), float_format<double>());
+    EXPECT_EQ(largest.distance, 1);
+    EXPECT_FALSE(largest.correctly_rounded);
+  }
+}
+
 TEST(FloatDistance, AgreesWithBoostWhereBoostIsDefined) {
   const double pairs[][2] = {{1, 2},
                              {1, std::nextafter(1.0, 0)},

@@ -1,0 +1,110 @@
+// Tests of the oracle where it takes another way than MPFR and MPC: powers on axes and diagonals and far out,
+// and erfc next to the pole of its rule's error.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "reference/oracle/oracle.hpp"
+#include "reference/oracle/oracle_erf.hpp"
+
+namespace ulpgate {
+namespace {
+
+constexpr auto nearest = MPFR_RNDN;
+constexpr long bits = 300;
+
+struct Point {
+  double re, im;
+};
+
+std::vector<MpfrValue> power(Point z, Point w) {
+  std::vector<MpfrValue> args;
+  for (const double x : {z.re, z.im, w.re, w.im}) {
+    args.emplace_back(53);
+    mpfr_set_d(args.back(), x, nearest);
+  }
+  std::vector<MpfrValue> out;
+  out.emplace_back(bits);
+  out.emplace_back(bits);
+  exact_value(info_of(FunctionId::cpow), args, out);
+  return out;
+}
+
+// exp(w log z) by MPC with five hundred bits more.
+void expect_power(Point z, Point w) {
+  const WideExponentRange range;
+  const auto got = power(z, w);
+  MpcValue want(bits + 500), exponent(64);
+  mpc_set_d_d(want, z.re, z.im, MPC_RNDNN);
+  mpc_set_d_d(exponent, w.re, w.im, MPC_RNDNN);
+  mpc_log(want, want, MPC_RNDNN);
+  mpc_mul(want, want, exponent, MPC_RNDNN);
+  mpc_exp(want, want, MPC_RNDNN);
+  MpfrValue modulus(64), difference(64);
+  mpc_abs(modulus, want, nearest);
+  mpfr_mul_2si(modulus, modulus, -bits, nearest);
+  const auto near = [&](const MpfrValue& a, mpfr_srcptr b) {
+    mpfr_sub(difference, a, b, nearest);
+    return mpfr_cmpabs(difference, modulus) <= 0;
+  };
+  EXPECT_TRUE(near(got[0], mpc_realref(static_cast<mpc_ptr>(want)))) << z.re << " " << z.im << " ^ " << w.re;
+  EXPECT_TRUE(near(got[1], mpc_imagref(static_cast<mpc_ptr>(want)))) << z.re << " " << z.im << " ^ " << w.re;
+}
+
+TEST(ComplexPowers, OnAxesAndDiagonalsTurnByTheirAngle) {
+  for (const double size : {1.0, 2.0, 0.7}) {
+    for (const int re : {-1, 0, 1}) {
+      for (const int im : {-1, 0, 1}) {
+        if (re == 0 && im == 0) continue;
+        for (const double w : {0.3, -0.3, 1.7, -12.625, 100.1, 0x1p-40, 0x1p12 + 0.75})
+          expect_power({re * size, im * size}, {w, 0});
+      }
+    }
+  }
+}
+
+// Of modulus one: an imaginary part of the exponent does not turn it.
+TEST(ComplexPowers, OfUnitsTurnByTheirAngle) {
+  for (const Point z : {Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    for (const double w : {0.3, -1.7, 3.0, 100.1}) expect_power(z, {w, 0.625});
+  }
+}
+
+// -2 - 0i lies below the cut of the logarithm (C99 7.3.8.2 and annex G.6.3.2).
+TEST(ComplexPowers, BelowTheNegativeAxisTurnTheOtherWay) {
+  for (const double w : {0.3, -1.7, 0.5, 2.5}) expect_power({-2, -0.0}, {w, 0});
+}
+
+// An exact power of so large an exponent would have more digits than there is memory.
+TEST(ComplexPowers, OfHugeRealExponentsEnd) {
+  for (const double w : {0x1p60, -0x1p60, 0x1p40 + 0.5, 0x1.8p30}) expect_power({1.5, 0.3}, {w, 0});
+}
+
+TEST(ComplexPowers, OfComplexExponentsWithAHalfIntegerEnd) {
+  for (const Point w : {Point{1, 0.3}, {2.5, -7}, {0, 0.1}}) expect_power({1.5, 0.3}, w);
+}
+
+// The rule of step pi/a serves arguments away from a alone, and a^2 is an integer times ln 2, for a step that
+// makes its error e^(-a^2) some number of bits.
+TEST(ErrorFunctions, NextToThePoleOfTheRuleAreThoseOfMpfr) {
+  int by_rule = 0;
+  for (const long precision : {24L, 53L, 64L, 113L, 150L, 239L, 400L}) {
+    for (long n = precision; n < precision + 100; ++n) {
+      const double pole = std::sqrt(static_cast<double>(n) * std::log(2.0));
+      for (const double x : {pole, pole * (1 + 0x1p-30), pole * (1 - 0x1p-14)}) {
+        MpfrValue argument(53), got(precision), want(precision);
+        mpfr_set_d(argument, x, nearest);
+        const auto rounding = oracle::complementary_error_function(got, argument);
+        by_rule += rounding.method == oracle::Method::formula ? 1 : 0;
+        const int ternary = mpfr_erfc(want, argument, nearest);
+        EXPECT_NE(mpfr_equal_p(got, want), 0) << "erfc " << x << " in " << precision;
+        EXPECT_EQ(rounding.ternary > 0, ternary > 0) << "erfc " << x << " in " << precision;
+      }
+    }
+  }
+  EXPECT_GT(by_rule, 2000);
+}
+
+}  // namespace
+}  // namespace ulpgate
