@@ -111,6 +111,30 @@ TEST(NarrowScan, A16NamesABugOfRelativeWidth1e4) {
   }
 }
 
+int points_until_one_throws = -1;
+void sqrt_that_throws_once(const double* args, double* results, std::uint8_t* threw, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    results[i] = std::sqrt(args[i]);
+    if (points_until_one_throws-- == 0) threw[i] = 1;
+  }
+}
+
+TEST(NarrowScan, WhatThrewInOneBlockIsForgottenInTheNext) {
+  if constexpr (has_narrow_scan<double>) {
+    double args[6] = {};
+    NarrowArguments<double>(named("sqrt"), 1).fill(0, 6, args);
+    NarrowScan<double> scan(named("sqrt"), &sqrt_that_throws_once, 1);
+    points_until_one_throws = 5;
+    double x = 0;
+    scan.choose(0, &x);
+    EXPECT_EQ(x, args[5]) << "nothing is more suspicious than what throws";
+    scan.choose(1, &x);
+    double want = 0;
+    NarrowScan<double>(named("sqrt"), &sqrt_that_throws_once, 1).choose(1, &want);
+    EXPECT_EQ(x, want);
+  }
+}
+
 TEST(NarrowScan, RowsAreOfRealFunctionsOfFloatAndDouble) {
   PlanRequest request;
   request.subjects = {"sin", "pow", "csin"};

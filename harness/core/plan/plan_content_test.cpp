@@ -101,5 +101,41 @@ TEST(Plan, SaysInItsTextWhatFixesTheNumbers) {
   EXPECT_EQ(Plan(request, {}).hash(), functions.hash());
 }
 
+// What a record says of its largest errors is said of points that were looked at.
+TEST(FinishRow, NamesTheArgumentsOfWhatItsSummariesHold) {
+  struct Case {
+    SubjectKind kind;
+    const char* subject;
+    Stratum stratum;
+    bool normwise;
+  };
+  for (const Case& c : {Case{SubjectKind::function, "exp", Stratum::uniform, false},
+                        Case{SubjectKind::kernel, "rotation", Stratum::typical, true}}) {
+    PlanRequest request;
+    request.kind = c.kind;
+    request.subjects = {c.subject};
+    request.types = {"double"};
+    request.strata = {c.stratum};
+    request.samples = 20;
+    const Plan plan(request, {});
+    ASSERT_EQ(plan.rows().size(), 1U);
+    const PlanRow& row = plan.rows()[0];
+    RowHint hint(row.subject->info().parts.size());
+    const auto summaries = row.subject->evaluate(row.source, 0, row.source.count, ReferenceMode::full, hint);
+    const auto records = finish_row(plan, row, summaries);
+    ASSERT_EQ(records.size(), summaries.size());
+    for (std::size_t part = 0; part < records.size(); ++part) {
+      const RowPoints& points = records[part].points;
+      EXPECT_EQ(points.argmax, row.subject->point(row.source, summaries[part].max_error.index).args_hex);
+      EXPECT_TRUE(points.first_mismatch.empty());
+      EXPECT_EQ(points.normwise_argmax.empty(), !c.normwise) << c.subject;
+      if (!c.normwise) continue;
+      const Point worst = row.subject->point(row.source, summaries[part].normwise.index);
+      EXPECT_EQ(points.normwise_argmax, worst.args_hex);
+      EXPECT_EQ(points.condition, worst.parts[part].condition);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ulpgate
