@@ -169,16 +169,18 @@ def try_all(todo: list, trials: list, log: pathlib.Path) -> None:
 
 def try_together(
     todo: list[Mutant],
+    chosen: list[Mutant],
     plan: Plan,
     options: argparse.Namespace,
     work: pathlib.Path,
     log: pathlib.Path,
 ) -> list[Mutant]:
-    """Tries in one build what can be; the others."""
+    """Tries in one build, of all that are chosen, what can be; the others."""
     together = Together(plan, options.checkout, work / "together", options.jobs)
-    together.prepare(todo, say)
-    ready = together.ready()
-    others = {m.key for m in todo} - {w.mutant.key for w in ready}
+    together.prepare(chosen, say)
+    wanted = {m.key for m in todo}
+    ready = [w for w in together.ready() if w.mutant.key in wanted]
+    others = wanted - {w.mutant.key for w in ready}
     say(f"{len(ready)} mutants in one build, {len(others)} need one of their own")
     try_all([(w.mutant, w) for w in ready], [together.attempt] * options.jobs, log)
     return [m for m in todo if m.key in others]
@@ -303,7 +305,7 @@ def main() -> int:
             work.mkdir(parents=True, exist_ok=True)
             try:
                 if not options.alone:
-                    todo = try_together(todo, plan, options, work, log)
+                    todo = try_together(todo, chosen, plan, options, work, log)
                 if todo:
                     try_alone(todo, plan, options, work, log)
             except RuntimeError as reason:

@@ -1,6 +1,7 @@
 """Trials of many mutants in one build: which test cases come by each, and what these make of it."""
 
 import concurrent.futures
+import json
 import os
 import pathlib
 import re
@@ -38,22 +39,33 @@ class Together:
     jobs: int = 1
     woven: dict[str, list[Woven]] = field(default_factory=dict)
     cases: list[Case] = field(default_factory=list)
+    count: int = 0  # the greatest number
 
     def prepare(self, mutants: list[Mutant], say) -> None:
         """Weaves, builds and finds who reaches what; RuntimeError where that cannot be, or tests fail with no mutant on."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        known = self._read_known()
+        # A mutant keeps its number and form in later runs, so that what was built stays.
+        highest = max((number for number, _ in known.values()), default=0)
         by_file: dict[str, list[tuple[int, Mutant]]] = {}
-        for number, m in enumerate(mutants, start=1):
+        for m in mutants:
+            if m.key not in known:
+                highest += 1
+            number, _ = known.get(m.key, (highest, None))
             by_file.setdefault(m.file, []).append((number, m))
         for name, some in by_file.items():
             self.woven[name] = place((self.checkout / name).read_text(), some)
-        self.folder.mkdir(parents=True, exist_ok=True)
+            for w in self.woven[name]:
+                w.form = Form(known.get(w.mutant.key, (0, w.form))[1])
+        self.count = highest
+        self._keep_known()
         header, source, switch = (
             self.folder / name
             for name in ("mutation.hpp", "mutation.cpp", "mutation.o")
         )
         if not header.is_file() or header.read_text() != HEADER:
             header.write_text(HEADER)
-        source.write_text(SWITCH_SOURCE % (len(mutants) + 1))
+        source.write_text(SWITCH_SOURCE % (self.count + 1))
         compiler = os.environ.get("CXX", "c++")
         subprocess.run([compiler, "-O2", "-c", source, "-o", switch], check=True)
         shop = Workshop(
@@ -64,7 +76,7 @@ class Together:
             link=str(switch),
         )
         self._build(shop, say)
-        self._find_cases(shop, len(mutants), say)
+        self._find_cases(shop, self.count, say)
 
     def _build(self, shop: Workshop, say) -> None:
         for round_ in range(ROUNDS):
@@ -77,6 +89,7 @@ class Together:
                 shop.relink()
                 return
             changed = self._give_way(failed, shop)
+            self._keep_known()
             say(
                 f"round {round_ + 1} of the build: {changed} mutants do not compile in their form"
             )
@@ -84,6 +97,18 @@ class Together:
                 (self.folder / "failed_build.txt").write_text(failed)
                 raise RuntimeError(f"the woven sources do not build:\n{failed[-3000:]}")
         raise RuntimeError(f"the woven sources do not build in {ROUNDS} rounds")
+
+    def _keep_known(self) -> None:
+        known = {
+            w.mutant.key: (w.number, w.form)
+            for some in self.woven.values()
+            for w in some
+        }
+        (self.folder / "known.json").write_text(json.dumps(self._read_known() | known))
+
+    def _read_known(self) -> dict[str, tuple[int, int]]:
+        file = self.folder / "known.json"
+        return json.loads(file.read_text()) if file.is_file() else {}
 
     def _woven_text(self, name: str, content: bytes) -> bytes:
         if name not in self.woven:
@@ -101,6 +126,19 @@ class Together:
                         changed += 1
             if changed:
                 return changed
+        # The place of the error is not the mutant's: a constant that uses it, for one.
+        files = {m[1] for m in ERROR.finditer(output)}
+        for form in (Form.OFF_IN_CONSTANTS, Form.ALONE):
+            some = {
+                w.number: w
+                for file in files
+                for w in self._at(file, shop)
+                if w.form < form
+            }
+            for w in some.values():
+                w.form = form
+            if some:
+                return len(some)
         return 0
 
     def _at(self, file: str, shop: Workshop) -> list[Woven]:
