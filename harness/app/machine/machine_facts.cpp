@@ -91,10 +91,19 @@ std::map<std::string, std::string> deciding_facts(const Json& context) {
   const auto note = [&](const std::string& name, const Json& value) {
     if (value.is_string() && !value.get_ref<const std::string&>().empty()) facts[name] = value;
   };
-  for (const auto& [name, version] : context.value("libraries", Json::object()).items()) note(name, version);
-  for (const auto& [file, library] : context.value("loaded", Json::object()).items())
-    note(file, library.value("build_id", Json()));
-  for (const auto* key : {"libm_variants", "instruction_sets", "cpu"}) note(key, context.value(key, Json()));
+  const auto object = [&](const char* key) {
+    const auto it = context.find(key);
+    return it != context.end() && it->is_object() ? *it : Json::object();
+  };
+  const Json libraries = object("libraries");
+  for (const auto& [name, version] : libraries.items()) note(name, version);
+  const Json loaded = object("loaded");
+  for (const auto& [file, library] : loaded.items()) {
+    if (library.is_object() && library.contains("build_id")) note(file, library["build_id"]);
+  }
+  for (const auto* key : {"libm_variants", "instruction_sets", "cpu"}) {
+    if (context.contains(key)) note(key, context[key]);
+  }
   return facts;
 }
 
