@@ -76,7 +76,7 @@ TEST(ComplexPowers, BelowTheNegativeAxisTurnTheOtherWay) {
   for (const double w : {0.3, -1.7, 0.5, 2.5}) expect_power({-2, -0.0}, {w, 0});
 }
 
-// An exact power of so large an exponent would have more digits than there is memory.
+// Exact powers of exponents that large would have more digits than there is memory: none may be looked for.
 TEST(ComplexPowers, OfHugeRealExponentsEnd) {
   for (const double w : {0x1p60, -0x1p60, 0x1p40 + 0.5, 0x1.8p30}) expect_power({1.5, 0.3}, {w, 0});
 }
