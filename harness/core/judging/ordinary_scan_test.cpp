@@ -1,15 +1,19 @@
 // Tests of the scan: what it settles, NativeStage settles too, and both count it alike.
+// Tests of the tally: large errors, when it asks for a condition number, and what stages may say to it.
 #include "harness/core/judging/ordinary_scan.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <random>
 
+#include "harness/core/judging/exact_results.hpp"
 #include "harness/core/judging/native_stage.hpp"
 #include "harness/core/judging/row_tally.hpp"
 #include "harness/core/judging/screened_judging.hpp"
+#include "harness/core/judging/tally.hpp"
 #include "harness/core/records/recorded_figures.hpp"
 #include "kernels/math/function_table.hpp"
 
@@ -85,6 +89,87 @@ TEST(OrdinaryScan, WritesTheSameVerdictsWithEveryInstructionSet) {
     all.back().resize(args.size() - 8);
     EXPECT_EQ(all.back(), all.front());
   }
+}
+
+Judgement off_by(double error) {
+  return {Outcome::finite, {error}, std::ceil(error), error <= 0.5};
+}
+
+TEST(Tally, CountsErrorsOfEverySizeAsASummaryDoes) {
+  Tally tally({});
+  Summary want;
+  std::uint64_t k = 0;
+  for (const double error :
+       {0.0, 0x1p-10, 0.25, 0.5, 0.75, 3.0, 1000.0, 1024.0, 1025.0, 5000.5, 0x1p30, 0x1p52}) {
+    for (int times = 0; times < 3; ++times, ++k) {
+      tally.count(finding_of(off_by(error)), k);
+      want.add(off_by(error), k);
+    }
+  }
+  EXPECT_EQ(recorded_figures(tally.take()), recorded_figures(want));
+}
+
+// The condition number itself costs several references: it is asked for where error / condition may be the
+// largest so far, by a lower bound of the condition number.
+TEST(Tally, AsksForAConditionNumberWhereItMayRaiseTheRatio) {
+  Tally tally({100, 0});
+  const auto need = [&](double error, double ratio_seen, double bound) {
+    return tally.need(finding_of(off_by(error)), 1, ratio_seen, [&] { return bound; });
+  };
+  EXPECT_EQ(need(12, 2, 5), Need::condition) << "at most 12/5";
+  EXPECT_EQ(need(12, 2, 6), Need::condition) << "the same ratio once more";
+  EXPECT_EQ(need(12, 2, 7), Need::nothing) << "below 12/7";
+  EXPECT_EQ(need(1.5, 2, 1), Need::nothing);
+  EXPECT_EQ(need(0.5, 0, 1), Need::nothing) << "correctly rounded";
+  Finding vague = finding_of(off_by(12));
+  vague.least = 11.9999;
+  EXPECT_EQ(tally.need(vague, 1, 2, [] { return 5.0; }), Need::better) << "the error must be known first";
+  EXPECT_EQ(tally.need(vague, 1, 2, [] { return 7.0; }), Need::nothing);
+}
+
+// e^-20 is small, and the bound must be that of the argument itself: by e^0 the condition number would seem
+// to be 2^28 times as large, and the largest error over condition would be passed over.
+TEST(RowTally, BoundsTheConditionNumberAtTheSampleItself) {
+  const FunctionInfo& f = info_of(FunctionId::cexp);
+  const std::array<float, 2> args = {-20, 0.5F};
+  const std::array<long double, 2> values = {std::exp(-20.0L) * std::cos(0.5L),
+                                             std::exp(-20.0L) * std::sin(0.5L)};
+  RowHint hint(2);
+  hint.raise_error_over_condition(0, 1);
+  RowTally<float> tally(f, hint);
+  const std::array<Finding, 2> findings = {finding_of(off_by(41)), finding_of(off_by(0.25))};
+  EXPECT_TRUE(tally.settle(findings, 0, args.data(), values));
+  // |x| + |y tan y| of the real part.
+  const double condition = 20 + 0.5 * std::tan(0.5);
+  EXPECT_NEAR(tally.take()[0].max_error_over_condition, 41 / condition, 1e-9);
+}
+
+// Infinity for e^80, which binary32 holds: no stage may take it for an agreed one.
+TEST(NativeStage, DoesNotAgreeToASpuriousOverflow) {
+  const std::vector<float> args = {80, 89, 100};
+  NativeStage<float, double, Stage::binary64> stage(FunctionId::exp,
+                                                    bounded_function<double>(FunctionId::exp));
+  stage.load(args, args.size());
+  Finding finding;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_FALSE(stage.find(0, &args[0], infinity, finding));
+  EXPECT_TRUE(stage.find(2, &args[2], infinity, finding)) << "beyond the range";
+  EXPECT_EQ(finding.outcome, Outcome::finite);
+}
+
+// What is lost of a product or a quotient may be below the least number and seem to be nothing.
+TEST(ExactResults, ArePassedOverWhereTheResidualUnderflows) {
+  const double x = 1 + 0x1p-52;
+  for (const double scale : {0x1p-500, 0x1p-505, 0x1p-510}) {
+    const double product[] = {x * scale, x * scale};
+    EXPECT_NE(exactness_of(FunctionId::mul, product, product[0] * product[1]), Exactness::exact) << scale;
+    const double quotient[] = {scale * scale, x * 3 * scale};
+    EXPECT_NE(exactness_of(FunctionId::div, quotient, quotient[0] / quotient[1]), Exactness::exact) << scale;
+  }
+  const double plain[] = {x, x};
+  EXPECT_EQ(exactness_of(FunctionId::mul, plain, x * x), Exactness::rounded);
+  const double whole[] = {3, 5};
+  EXPECT_EQ(exactness_of(FunctionId::mul, whole, 15.0), Exactness::exact);
 }
 
 }  // namespace
