@@ -145,12 +145,12 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("code,more,message", REFUSED)
-def test_what_is_not_measured_is_not_passed(code, more, message):
+def test_a1_what_is_not_measured_is_not_passed(code, more, message):
     got, out, err = run(*more)
     assert got == code and message in err, out + err
 
 
-def test_a_drift_that_leaves_the_numbers_is_wrong(tmp_path):
+def test_a1_a_drift_that_leaves_the_numbers_is_wrong(tmp_path):
     words = [*OVERFLOW, "--out", tmp_path]
     code, out, err = run(*words)
     assert code == 1 and "FAIL" in out, out + err

@@ -73,7 +73,7 @@ ode::SolvedProblem<double> broken(double force) {
   return solved;
 }
 
-TEST(OrderJudgement, APlantedNanOrInfinityIsWrong) {
+TEST(OrderJudgement, A1APlantedNanOrInfinityIsWrong) {
   for (const double force : {nan, inf}) {
     const auto solved = broken(force);
     for (const auto* name : {"leapfrog", "yoshida6", "fehlberg78", "extrapolation8"}) {
