@@ -168,6 +168,29 @@ TEST(Newton, FreeAsphericalBodyKeepsMomentumAndEnergy) {
   EXPECT_EQ(s.angular_momentum, (V{1, 0.1, 2}));
 }
 
+// A point of a convex set is the nearest one to p if and only if no corner of the set is on p's side of it.
+TEST(Facet, TheNearestPointIsTheProjection) {
+  const Facet<double> facets[] = {{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}},
+                                  {{0.5, 0.25, 0}, {3, -0.5, 0.25}, {2.5, 1.75, 1}},
+                                  {{0, 0, 0}, {3, 0, 0.5}, {-2, 1, 0}}};
+  for (const auto& t : facets) {
+    int faces = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const V p{-3 + 0.7 * (i % 10), -3 + 0.7 * (i / 10 % 10), -1 + 0.3 * (i / 100)};
+      const V q = nearest_on_facet(t, p);
+      for (const V& corner : {t.a, t.b, t.c}) EXPECT_LE(dot(p - q, corner - q), 1e-13) << i;
+      const V normal = cross(t.b - t.a, t.c - t.a);
+      EXPECT_NEAR(dot(normal, q - t.a), 0, 1e-13) << "it lies in the plane, " << i;
+      double area = 0;
+      for (const auto& [a, b] : {std::pair{t.a, t.b}, std::pair{t.b, t.c}, std::pair{t.c, t.a}})
+        area += norm(cross(a - q, b - q));
+      EXPECT_NEAR(area, norm(normal), 1e-12) << "and inside, " << i;
+      faces += norm(q - t.a) > 0 && norm(q - t.b) > 0 && norm(q - t.c) > 0 ? 1 : 0;
+    }
+    EXPECT_GT(faces, 100) << "edges and faces were met as well as corners";
+  }
+}
+
 TEST(CriticalStep, ClosedValues) {
   EXPECT_DOUBLE_EQ(p_wave_step(0.01, 2500.0, 1e8), 5e-5);
   // nu = 0: G = E/2, fit 0.8766.
