@@ -147,6 +147,13 @@ TEST(Physics, HertzOfEqualBodies) {
   EXPECT_NEAR(hertz_mindlin_physics(m, 0.02, m, 0.02).ks / (8 * g_star * std::sqrt(0.01)), 1, 1e-15);
 }
 
+TEST(Physics, TheSmallerFrictionOfTwoMaterialsHolds) {
+  const Elastic<double> rough{1e9, 0.25, 0.5};
+  const Elastic<double> smooth{1e9, 0.25, 0.125};
+  EXPECT_EQ(hertz_mindlin_physics(rough, 0.02, smooth, 0.02).tan_friction, std::tan(0.125));
+  EXPECT_EQ(hertz_mindlin_physics(smooth, 0.02, rough, 0.02).tan_friction, std::tan(0.125));
+}
+
 TEST(Newton, DampingWeakensWhatSpeedsUp) {
   EXPECT_EQ(damped(2.0, 1.0, 0.1, 0.25), 1.5) << "speeding up";
   EXPECT_EQ(damped(2.0, -1.0, 0.1, 0.25), 2.5) << "slowing down";
