@@ -213,13 +213,13 @@ def test_a9_the_gate_says_that_budgets_are_of_another_machine(tmp_path):
     file = tmp_path / "b/double.toml"
     text = file.read_text()
     cpu = context_of(tmp_path / "o")["cpu"]
-    assert f'cpu = "{cpu}"' in text
-    file.write_text(text.replace(f'cpu = "{cpu}"', 'cpu = "an older one"'))
+    assert f'"cpu" = "{cpu}"' in text
+    file.write_text(text.replace(f'"cpu" = "{cpu}"', '"cpu" = "an older one"'))
     code, _, err = run(*gate)
     assert code == 0
     assert f"double: measured on another machine than the budgets: cpu '{cpu}'" in err
     assert "libm_variants" not in err
-    file.write_text(text.replace("libm_variants = ", "libm_variants = 3 #"))
+    file.write_text(text.replace('"libm_variants" = ', '"libm_variants" = 3 #'))
     code, _, err = run(*gate)
     assert code == 2 and "double.toml:" in err and "[machine] libm_variants" in err
 
