@@ -134,8 +134,8 @@ def say(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
 
 
-def try_all(todo: list, trials: list, log: pathlib.Path) -> None:
-    """Tries each of `todo` by one of `trials`, as many at once; `todo` holds (mutant, what a trial is called with)."""
+def try_all(untried: list, trials: list, log: pathlib.Path) -> None:
+    """Tries each of `untried` by one of `trials`, as many at once; `untried` holds (mutant, what a trial is called with)."""
     free: queue.Queue = queue.Queue()
     for trial in trials:
         free.put(trial)
@@ -153,12 +153,12 @@ def try_all(todo: list, trials: list, log: pathlib.Path) -> None:
             append(log, entry)
             done += 1
             say(
-                f"[{done}/{len(todo)}] {entry['outcome']:12} {entry['seconds']:6.1f} s  {mutant.file}:{mutant.line}"
+                f"[{done}/{len(untried)}] {entry['outcome']:12} {entry['seconds']:6.1f} s  {mutant.file}:{mutant.line}"
                 f"  {entry['by']}"
             )
 
     with concurrent.futures.ThreadPoolExecutor(len(trials)) as pool:
-        running = [pool.submit(one, *item) for item in todo]
+        running = [pool.submit(one, *item) for item in untried]
         try:
             for future in concurrent.futures.as_completed(running):
                 future.result()
@@ -168,7 +168,7 @@ def try_all(todo: list, trials: list, log: pathlib.Path) -> None:
 
 
 def try_together(
-    todo: list[Mutant],
+    untried: list[Mutant],
     chosen: list[Mutant],
     plan: Plan,
     options: argparse.Namespace,
@@ -178,16 +178,16 @@ def try_together(
     """Tries in one build, of all that are chosen, what can be; the others."""
     together = Together(plan, options.checkout, work / "together", options.jobs)
     together.prepare(chosen, say)
-    wanted = {m.key for m in todo}
+    wanted = {m.key for m in untried}
     ready = [w for w in together.ready() if w.mutant.key in wanted]
     others = wanted - {w.mutant.key for w in ready}
     say(f"{len(ready)} mutants in one build, {len(others)} need one of their own")
     try_all([(w.mutant, w) for w in ready], [together.attempt] * options.jobs, log)
-    return [m for m in todo if m.key in others]
+    return [m for m in untried if m.key in others]
 
 
 def try_alone(
-    todo: list[Mutant],
+    untried: list[Mutant],
     plan: Plan,
     options: argparse.Namespace,
     work: pathlib.Path,
@@ -195,11 +195,11 @@ def try_alone(
 ) -> None:
     shops = [
         Workshop(plan, options.checkout, work / str(i))
-        for i in range(min(options.jobs, len(todo)))
+        for i in range(min(options.jobs, len(untried)))
     ]
     for shop in shops:
         shop.prepare()
-    try_all([(m, m) for m in todo], [shop.attempt for shop in shops], log)
+    try_all([(m, m) for m in untried], [shop.attempt for shop in shops], log)
 
 
 def positive(text: str) -> int:
@@ -300,14 +300,14 @@ def main() -> int:
         again = {
             k for k, e in known.items() if options.again and e["outcome"] == "survived"
         }
-        todo = [m for m in chosen if m.key not in known or m.key in again]
-        if todo:
+        untried = [m for m in chosen if m.key not in known or m.key in again]
+        if untried:
             work.mkdir(parents=True, exist_ok=True)
             try:
                 if not options.alone:
-                    todo = try_together(todo, chosen, plan, options, work, log)
-                if todo:
-                    try_alone(todo, plan, options, work, log)
+                    untried = try_together(untried, chosen, plan, options, work, log)
+                if untried:
+                    try_alone(untried, plan, options, work, log)
             except RuntimeError as reason:
                 print(f"scripts/mutate: {reason}", file=sys.stderr)
                 return 4

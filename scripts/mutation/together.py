@@ -40,6 +40,7 @@ class Together:
     woven: dict[str, list[Woven]] = field(default_factory=dict)
     cases: list[Case] = field(default_factory=list)
     count: int = 0  # the greatest number
+    shop: Workshop | None = None
 
     def prepare(self, mutants: list[Mutant], say) -> None:
         """Weaves, builds and finds who reaches what; RuntimeError where that cannot be, or tests fail with no mutant on."""
@@ -68,15 +69,15 @@ class Together:
         source.write_text(SWITCH_SOURCE % (self.count + 1))
         compiler = os.environ.get("CXX", "c++")
         subprocess.run([compiler, "-O2", "-c", source, "-o", switch], check=True)
-        shop = Workshop(
+        self.shop = Workshop(
             self.plan,
             self.checkout,
             self.folder,
             flags=f"-include {header}",
             link=str(switch),
         )
-        self._build(shop, say)
-        self._find_cases(shop, self.count, say)
+        self._build(self.shop, say)
+        self._find_cases(say)
 
     def _build(self, shop: Workshop, say) -> None:
         for round_ in range(ROUNDS):
@@ -150,13 +151,12 @@ class Together:
             w for name, some in self.woven.items() if name.endswith(".in") for w in some
         ]
 
-    def _find_cases(self, shop: Workshop, count: int, say) -> None:
-        self.shop = shop
+    def _find_cases(self, say) -> None:
         for test in self.plan.tests:
             names = [""]
             if any(a.startswith("--gtest") for a in test.arguments):
                 listed = subprocess.run(
-                    [*shop.command(test), "--gtest_list_tests"],
+                    [*self.shop.command(test), "--gtest_list_tests"],
                     capture_output=True,
                     text=True,
                     check=True,
@@ -168,7 +168,7 @@ class Together:
 
         def one(number: int, case: Case) -> None:
             file = reached / str(number)
-            file.write_bytes(bytes(count + 1))
+            file.write_bytes(bytes(self.count + 1))
             started = time.monotonic()
             status, output = self._run([case], 0, case.test.limit, file)
             case.seconds = time.monotonic() - started

@@ -1,4 +1,4 @@
-"""Tests of narrow bugs through the program itself: planted by a preloaded library, found by the gate."""
+"""Tests of narrow bugs through the program itself: planted by a preloaded library, found by the gate, down to one float."""
 
 import json
 import os
@@ -65,6 +65,19 @@ def test_a16_a_narrow_bug_turns_the_gate_red(
     code, _, err = run("math", *words, "--out", tmp_path / "o", "--overwrite")
     assert code == 0, err
     assert run(*gate)[0] == 0
+
+
+def test_a16_one_wrong_float_of_all_turns_the_gate_red(tmp_path, library):
+    # One ULP: less than the largest error of many a function at another float.
+    env = narrow_bugs.environment(library, "log2f 2.5 2.5 1")
+    words = "--functions log2 --types float --strata exhaustive --timing off".split()
+    code, _, err = run("math", *words, "--out", tmp_path / "o", env=env)
+    assert code == 0, err
+    budgets = ROOT / "ci/budgets/exhaustive"
+    gate = ["gate", tmp_path / "o", "--budgets", budgets, "--only-measured"]
+    code, out, err = run(*gate)
+    assert code == 1, out + err
+    assert "reproduce: ulpgate at log2 float 0x1.4p+1" in out
 
 
 def test_narrow_records_do_not_depend_on_threads_or_reference(tmp_path):
