@@ -13,6 +13,9 @@ void assert_floating_point_environment();
 // is restored first; the work is void then.  An empty `what` stands for the thread's WorkPlace.
 void check_environment(std::string_view what = {});
 
+// The same of the OpenMP threads that the calling thread computes with, itself among them.
+void check_environment_of_team(int threads);
+
 // Does work and checks what it left; work that throws may throw because of the environment.
 template <class Work>
 auto in_checked_environment(const Work& work) {

@@ -4,6 +4,7 @@ Libraries that misbehave are compiled here and preloaded."""
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -39,9 +40,17 @@ BODIES = {
     "hang": "if (x > 1 && x < 2) for (;;) usleep(1000); return true_sin(x);",
     "reference": "for (;;) usleep(1000);",
     "other": "return true_sin(x);",
+    "worker": "*s = x, *c = 1; if (gettid() != getpid()) _mm_setcsr(_mm_getcsr() | 0x4000);",
+    "endless": "*s = x, *c = 1; static int calls; if (++calls > 2000) for (;;) usleep(1000);",
 }
 
-HEADS = {"reference": "long double sinl(long double x) {"}
+# What turns the bodies of a scene calls the sine and the cosine at once.
+SINCOS = "void sincos(double x, double *s, double *c) {"
+HEADS = {
+    "reference": "long double sinl(long double x) {",
+    "worker": SINCOS,
+    "endless": SINCOS,
+}
 
 
 @pytest.fixture(scope="session")
@@ -224,7 +233,39 @@ def test_a9_the_gate_says_that_budgets_are_of_another_machine(tmp_path):
     assert code == 2 and "double.toml:" in err and "[machine] libm_variants" in err
 
 
+def spinning(tmp_path):
+    """A scene of 1500 spheres that turn, which two threads share."""
+    sphere = "[[sphere]]\nposition = [{}, 0, 0]\nradius = 0.3\nangular_velocity = [1, 2, 3]\n"
+    text = 'name = "spinning"\n[[material]]\nname = "m"\n' + "".join(
+        sphere.format(i) for i in range(1500)
+    )
+    file = tmp_path / "spinning.toml"
+    file.write_text(text + '[run]\ndt = 1e-4\nuntil = 0.1\nrecord = ["rotation"]\n')
+    return file
+
+
+@needs_x86
+def test_a8_a_thread_of_a_step_that_changes_the_environment_voids_it(tmp_path, library):
+    words = ["scene", "run", spinning(tmp_path), "--types", "double", "--threads"]
+    code, _, err = run(*words, "2", preload=library("worker"))
+    assert code == 4, err
+    assert "spinning double step" in err and "MXCSR rounding upward" in err
+    assert run(*words, "1", preload=library("worker"))[0] == 0
+
+
 # What does not end
+
+
+@needs_x86
+@pytest.mark.parametrize("threads", ["1", "2"])
+@pytest.mark.parametrize("verb", ["run", "compare", "speed", "explain"])
+def test_b5_a_scene_whose_step_never_ends_is_named(tmp_path, library, verb, threads):
+    words = ["scene", verb, spinning(tmp_path), "--types", "double", "--threads"]
+    code, _, err = run(*words, threads, "--timeout", "1", preload=library("endless"))
+    assert code == 4, err
+    assert re.search(
+        "spinning double steps? .* has not come back in 1 s", err
+    ), "the scene, its type, the steps"
 
 
 @needs_x86
@@ -259,6 +300,19 @@ def test_b5_at_and_search_are_watched(tmp_path, library):
     assert (
         code == 4 and "sin double search at 0x1." in err and "has not come back" in err
     )
+
+
+@needs_x86
+def test_b5_kernels_and_integrators_are_watched(tmp_path, library):
+    words = ["--types", "double", "--timeout", "1", "--out"]
+    endless = library("endless")
+    rotation = ["kernels", "--kernels", "rotation", "--strata", "uniform", "--samples"]
+    code, _, err = run(*rotation, "4000", *words, tmp_path / "k", preload=endless)
+    assert code == 4 and "rotation double uniform at " in err, err
+    assert "has not come back in 1 s" in err
+    pendulum = ["integrators", "--problems", "pendulum", *words, tmp_path / "i"]
+    code, _, err = run(*pendulum, preload=library("hang"))
+    assert code == 4 and "pendulum double has not come back in 1 s" in err, err
 
 
 @needs_x86

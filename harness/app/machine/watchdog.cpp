@@ -108,6 +108,10 @@ void add_timeout_option(CLI::App& app, double& timeout_s) {
   for (CLI::App* verb : app.get_subcommands({})) {
     const std::string& name = verb->get_name();
     if (name == "math" || name == "kernels" || name == "integrators" || name == "search") add(*verb);
+    if (name != "scene") continue;
+    for (CLI::App* what : verb->get_subcommands({})) {
+      if (what->get_name() != "list" && !what->get_name().empty()) add(*what);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "harness/app/scene_commands/scene_commands.hpp"
 #include "harness/app/scene_commands/scene_options.hpp"
+#include "harness/app/scenes/watched_steps.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/store/records.hpp"
@@ -38,9 +39,9 @@ Repeats repeats_of(const std::string& token, const SceneJob& job, unsigned repea
   Repeats done;
   for (unsigned r = 0; r < repeats && !interrupted(); ++r) {
     const auto engine = engine_of(token, dem::Level::own, job);
-    engine->step(1);
+    take_steps(*engine, 1, job);
     const auto start = Clock::now();
-    engine->step(job.steps);
+    take_steps(*engine, job.steps, job);
     done.rates.push_back(static_cast<double>(job.steps) /
                          std::chrono::duration<double>(Clock::now() - start).count());
     done.memory_bytes = engine->memory_bytes();

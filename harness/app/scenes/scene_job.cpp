@@ -12,6 +12,7 @@
 #include "harness/app/shell/strict_options.hpp"
 #include "harness/core/arguments/random_words.hpp"
 #include "harness/core/orders/order_engine.hpp"
+#include "harness/core/watch/heartbeat.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
 #include "kernels/scenes/reader/expression.hpp"
 #include "kernels/scenes/reader/scene_reader.hpp"
@@ -166,7 +167,8 @@ void check_job(const SceneJob& job, const std::vector<std::string>& types) {
 std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const SceneJob& job) {
   std::unique_ptr<dem::DemEngine> engine;
   try {
-    engine = dem::make_engine(token, level, job.loaded.scene, {job.all_parts, job.threads, job.allow_large});
+    engine = dem::make_engine(token, level, job.loaded.scene,
+                              {job.all_parts, job.threads, job.allow_large, &Heartbeat::mine().steps()});
   } catch (const scenes::SceneFault& fault) {
     const std::string type = level == dem::Level::own ? token : "RealHP<4> of " + token;
     throw scene_failure(fmt::format("{} in {}", job.loaded.scene.name, type), fault);

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "harness/app/machine/environment.hpp"
 #include "harness/app/scenes/scene_output.hpp"
+#include "harness/app/scenes/watched_steps.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
@@ -113,9 +113,8 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Rec
       if (s > now) until = std::min(until, s);
     }
     if (now == 0) until = 1;
-    engine.step(until - now);
-    check_environment("a step of the scene");
-    if (reference) reference->step(until - now);
+    take_steps(engine, until - now, job);
+    if (reference) take_steps(*reference, until - now, job);
     look();
     if (run.diverged) break;
     if (until == 1 || until == job.steps || (job.record_every != 0 && until % job.record_every == 0))

@@ -2,6 +2,7 @@
 // MPFR.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,6 +21,9 @@ struct EngineOptions {
   bool all_parts = false;  // nothing is left out; the trajectory is the same to the last bit
   int threads = 1;
   bool allow_large = false;  // more memory than scenes::most_bytes
+  // Counted up while a call of step() is under way, by whichever thread gets on; never less often than the
+  // work of some thousand pairs of bodies takes.  Null where nobody looks.
+  std::atomic<std::uint64_t>* progress = nullptr;
 };
 
 // Which of RealHP<1> and RealHP<4> of a token's type.

@@ -15,7 +15,7 @@ class TypedEngine final : public DemEngine {
  public:
   TypedEngine(std::string type_name, const scenes::Scene& scene, const EngineOptions& options)
       : type_name_(std::move(type_name)),
-        simulation_(scene, {options.all_parts, options.threads, options.allow_large}) {}
+        simulation_(scene, {options.all_parts, options.threads, options.allow_large, options.progress}) {}
 
   [[nodiscard]] std::string type_name() const override { return type_name_; }
   void step(std::uint64_t count) override { simulation_.step(count); }

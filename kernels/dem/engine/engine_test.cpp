@@ -85,6 +85,24 @@ TEST(Engine, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
+TEST(Engine, TellsThatItGetsOnAndKeepsTheBits) {
+  const auto counted = [](const std::string& name, int threads, std::uint64_t steps) {
+    std::atomic<std::uint64_t> progress{0};
+    auto watched = engine(busy(name), {false, threads, false, &progress});
+    auto alone = engine(busy(name));
+    watched->step(steps);
+    alone->step(steps);
+    EXPECT_EQ(trajectory(*watched), trajectory(*alone)) << name;
+    return progress.load();
+  };
+  // Bonds alone: three of them, 4096/(3 + 1) steps at once.
+  EXPECT_EQ(counted("pendulum3", 1, 10000), 10U);
+  EXPECT_EQ(counted("pendulum3", 1, 1), 1U);
+  // Before, between and after the passes over contacts and bodies; its contacts are fewer than 4096.
+  EXPECT_EQ(counted("cradle", 1, 50), 150U);
+  EXPECT_EQ(counted("cradle", 2, 50), 150U);
+}
+
 TEST(Engine, EveryTypeKeepsBitsWithPartsAndThreads) {
   for (const std::string& token : engine_tokens()) {
     for (const Level level : {Level::own, Level::reference}) {

@@ -5,6 +5,9 @@
 // number of threads.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+
 #include "kernels/dem/step/bond_step.hpp"
 #include "kernels/dem/step/collider.hpp"
 #include "kernels/dem/step/contact_pass.hpp"
@@ -16,14 +19,15 @@ namespace ulpgate::dem {
 struct SimulationOptions {
   bool all_parts = false;  // nothing is left out; the trajectory is the same to the last bit
   int threads = 1;
-  bool allow_large = false;  // more memory than scenes::most_bytes
+  bool allow_large = false;                        // more memory than scenes::most_bytes
+  std::atomic<std::uint64_t>* progress = nullptr;  // counted up while steps are taken, by any thread
 };
 
 template <RealType Real>
 class Simulation {
  public:
   Simulation(const scenes::Scene& scene, const SimulationOptions& options)
-      : s_(load_scene<Real>(scene, options.all_parts, options.allow_large)) {
+      : s_(load_scene<Real>(scene, options.all_parts, options.allow_large)), progress_(options.progress) {
     collider_.limit_pairs(scenes::pairs_allowed<Real>(options.allow_large));
     set_threads(options.threads);
   }
@@ -31,7 +35,14 @@ class Simulation {
   // Takes `count` steps.
   void step(std::uint64_t count) {
     if (s_.parts.bonds_alone() && !s_.parts.moments && !collider_.started()) {
-      run_bonds_alone(s_, count, flow_);
+      // In parts, between which it tells that it gets on; their lengths change no bit.
+      const std::uint64_t part = std::max<std::uint64_t>(1, pairs_between_counts / (s_.bonds.size() + 1));
+      for (std::uint64_t left = count; left > 0;) {
+        const std::uint64_t taken = std::min(left, part);
+        run_bonds_alone(s_, taken, flow_);
+        got_on();
+        left -= taken;
+      }
       return;
     }
     for (std::uint64_t i = 0; i < count; ++i) step_once();
@@ -85,6 +96,12 @@ class Simulation {
   }
 
  private:
+  static constexpr std::uint64_t pairs_between_counts = 4096;
+
+  void got_on() {
+    if (progress_ != nullptr) progress_->fetch_add(1, std::memory_order_relaxed);
+  }
+
   void step_once() {
     collider_.update(s_, threads_ > 1);
     const ContactPass<Real> pass = contact_pass_of(s_, collider_.coarse());
@@ -94,7 +111,9 @@ class Simulation {
     } else {
       contacts_serial(pass);
     }
+    got_on();
     const bool moved = integrate(s_, threads_, collider_);
+    got_on();
     if (moved) collider_.outdate();
     ++s_.iteration;
   }
@@ -104,6 +123,7 @@ class Simulation {
     PairForce<Real> f;
     const std::size_t count = s_.contacts.size();
     for (std::size_t p = 0; p < count; ++p) {
+      if (p % pairs_between_counts == 0) got_on();
       if (!pass.evaluate(p, f)) continue;
       const auto i1 = static_cast<std::size_t>(f.first);
       const auto i2 = static_cast<std::size_t>(f.second);
@@ -131,6 +151,7 @@ class Simulation {
 #pragma omp for schedule(dynamic, 1024)
       for (std::int64_t k = 0; k < count; ++k) {
         const auto p = static_cast<std::size_t>(k);
+        if (p % pairs_between_counts == 0) got_on();
         active_[p] = pass.evaluate(p, slots_[p]) ? 1 : 0;
       }
 #pragma omp for schedule(dynamic, 512)
@@ -155,6 +176,7 @@ class Simulation {
   SimulationState<Real> s_;
   Collider<Real> collider_;
   int threads_ = 1;
+  std::atomic<std::uint64_t>* progress_;
   std::vector<FlowPart<Real>> flow_;
   std::vector<PairForce<Real>> slots_;
   std::vector<std::uint8_t> active_;
