@@ -4,11 +4,16 @@ import json
 import os
 import pathlib
 import subprocess
+import sys
 
+import false_failures
 import narrow_bugs
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "scripts"))
+import budget_platform  # noqa: E402
+
 ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 SIZE = ["--samples", "1000", "--timing", "off"]
 
@@ -78,6 +83,27 @@ def test_a16_one_wrong_float_of_all_turns_the_gate_red(tmp_path, library):
     code, out, err = run(*gate)
     assert code == 1, out + err
     assert "reproduce: ulpgate at log2 float 0x1.4p+1" in out
+
+
+def test_a13_other_seeds_and_sizes_fail_with_a_bug_alone(tmp_path, capsys):
+    words = "math --functions sqrt --types double --samples 10 --timing off".split()
+    code, _, err = run(*words, "--out", tmp_path / "o")
+    assert code == 0, err
+    if elsewhere := budget_platform.difference(ROOT / "ci/budgets", tmp_path / "o"):
+        pytest.skip(elsewhere)
+    plan = ["--ulpgate", ULPGATE, "--seeds", "2", "--sizes", "2000,40000"]
+    assert false_failures.main([*plan, "--types", "double"]) == 0
+    clean = capsys.readouterr().out.splitlines()
+    sizes = ["double 2000 samples", "double 40000 samples"]
+    assert clean == [f"{size}: 0 of 2 runs red" for size in sizes]
+    bug = ["--types", "double", "--functions", "sin", "--bug", "sin 2 4 3"]
+    assert false_failures.main([*plan, *bug]) == 0
+    red = capsys.readouterr().out
+    assert all(f"{size}: 2 of 2 runs red" in red for size in sizes)
+    assert "  sin: maximum error in ULP N (2)" in red
+    # A bug in an interval that holds nothing passes, and that is told.
+    bug = ["--types", "double", "--functions", "sin", "--bug", "sin 4 2 3"]
+    assert false_failures.main([*plan, *bug]) == 1
 
 
 def test_narrow_records_do_not_depend_on_threads_or_reference(tmp_path):
