@@ -33,6 +33,8 @@ TEST(Correlation, TheFirstBadChunkEndsTheTruth) {
   EXPECT_EQ(p.size(), 9U) << "the last five records fill no chunk";
   EXPECT_EQ(true_records(p, rule), 30U);
   EXPECT_EQ(true_records(chunk_correlations(a, a, rule), rule), 90U);
+  const std::vector<double> good = {1, 1, 1};
+  EXPECT_EQ(true_records(std::span(good).first(2), rule), 20U) << "no chunk behind the last is looked at";
 }
 
 }  // namespace
