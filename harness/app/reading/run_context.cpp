@@ -112,7 +112,8 @@ Json read_context(const std::filesystem::path& directory) {
     throw Failure(Standing::bad_input, fmt::format("{}: 'complete', but not 'finished'", place));
   check_shards(context, place);
   const std::size_t end = text.rfind(own_checksum);
-  if (end == std::string::npos || checksum(text.substr(0, end)) != context.at("checksum") ||
+  if (end == std::string::npos ||
+      checksum(text.substr(0, end)) != context.at("checksum").get<std::string>() ||
       text.size() != end + own_checksum.size() + 16 + std::string_view("\"\n}\n").size()) {
     throw Failure(Standing::bad_input,
                   fmt::format("{}: not as the run wrote it: its checksum is another", place));

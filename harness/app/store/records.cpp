@@ -40,7 +40,7 @@ RecordSet read_records(const std::filesystem::path& directory) {
   for (auto& line : placed_lines(directory / set.file, text)) {
     set.records.push_back(from_json_line(line.text, line.place));
     const RowRecord& r = set.records.back();
-    if (r.plan != set.context.at("plan")) {
+    if (r.plan != set.context.at("plan").get<std::string>()) {
       throw Failure(Standing::bad_input,
                     fmt::format("{}: plan {} is not that of {}", line.place, r.plan, context_file));
     }
