@@ -135,19 +135,47 @@ TEST(VectorFunctions, KeepTheirBoundsAtTheEndsOfTheirRanges) {
 }
 
 TEST(VectorFunctions, AnswerForEveryCountAlike) {
-  if (vector_function(FunctionId::exp) == nullptr) GTEST_SKIP() << "no libmvec on this machine";
+  if (vector_function(FunctionId::exp, 4) == nullptr) GTEST_SKIP() << "no libmvec on this machine";
   const std::vector<double> args = floats(100);
   for (const FunctionInfo& f : all_functions()) {
-    const VectorFunction function = vector_function(f.id);
-    if (function == nullptr) continue;
-    std::vector<double> all(args.size());
-    function(args.data(), all.data(), args.size());
-    for (std::size_t count = 1; count < 20; ++count) {
-      std::vector<double> some(count + 1, -7);
-      function(args.data(), some.data(), count);
-      EXPECT_EQ(some[count], -7) << "nothing is written behind the last";
-      for (std::size_t i = 0; i < count; ++i)
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(some[i]), std::bit_cast<std::uint64_t>(all[i])) << f.name;
+    for (const int lanes : {4, 8}) {
+      const VectorFunction function = vector_function(f.id, lanes);
+      if (function == nullptr) continue;
+      std::vector<double> all(args.size());
+      function(args.data(), all.data(), args.size());
+      for (std::size_t count = 1; count < 20; ++count) {
+        std::vector<double> some(count + 1, -7);
+        function(args.data(), some.data(), count);
+        EXPECT_EQ(some[count], -7) << "nothing is written behind the last";
+        for (std::size_t i = 0; i < count; ++i)
+          EXPECT_EQ(std::bit_cast<std::uint64_t>(some[i]), std::bit_cast<std::uint64_t>(all[i]))
+              << f.name << ", " << lanes << " lanes";
+      }
+    }
+  }
+}
+
+// Both are within 4 ulp of the value, so within 8 of each other; out of their ranges they answer the same.
+TEST(VectorFunctions, OfFourAndEightLanesAgree) {
+  std::vector<double> args = floats(100);
+  for (const double end : {0.5, 1.0, 2.0, 6.5, 23.0, 28.0, 41.0, 709.0, 711.0, 1023.0, 1025.0}) {
+    args.push_back(end);
+    args.push_back(-end);
+  }
+  for (const FunctionInfo& f : all_functions()) {
+    const VectorFunction four = vector_function(f.id, 4);
+    const VectorFunction eight = vector_function(f.id, 8);
+    if (four == nullptr || eight == nullptr) continue;
+    std::vector<double> a(args.size());
+    std::vector<double> b(args.size());
+    four(args.data(), a.data(), args.size());
+    eight(args.data(), b.data(), args.size());
+    for (std::size_t i = 0; i < args.size(); ++i) {
+      if (std::isnan(b[i])) {
+        EXPECT_TRUE(std::isnan(a[i])) << f.name << ' ' << args[i];
+      } else if (a[i] != b[i]) {
+        EXPECT_LE(std::fabs(a[i] - b[i]), std::fabs(b[i]) * 8 * 0x1p-52) << f.name << ' ' << args[i];
+      }
     }
   }
 }

@@ -143,8 +143,8 @@ __attribute__((target("avx2"))) void by_four(const double* args, double* results
 }
 
 template <FunctionId Id>
-VectorFunction best() {
-  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+VectorFunction best(int most_lanes) {
+  if (most_lanes >= 8 && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
       eight<Id>() != nullptr)
     return by_eight<Id>;
   if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 && four<Id>() != nullptr)
@@ -154,11 +154,11 @@ VectorFunction best() {
 
 }  // namespace
 
-VectorFunction vector_function(FunctionId id) {
+VectorFunction vector_function(FunctionId id, int most_lanes) {
   switch (id) {
 #define REAL1(name, d0, hard, oracle) \
   case FunctionId::name:              \
-    return best<FunctionId::name>();
+    return best<FunctionId::name>(most_lanes);
 #include "reference/functions/functions.def"
     default:
       return nullptr;
@@ -167,7 +167,7 @@ VectorFunction vector_function(FunctionId id) {
 
 #else
 
-VectorFunction vector_function(FunctionId) {
+VectorFunction vector_function(FunctionId, int) {
   return nullptr;
 }
 

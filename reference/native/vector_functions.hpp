@@ -11,7 +11,7 @@ namespace ulpgate {
 using VectorFunction = void (*)(const double* args, double* results, std::size_t count);
 
 // glibc's libmvec (AVX-512 or AVX2), within 4 ulp by its documentation; nullptr where library, processor or
-// function is missing.
-[[nodiscard]] VectorFunction vector_function(FunctionId id);
+// function is missing.  `most_lanes` 4 takes AVX2 where the processor has more.
+[[nodiscard]] VectorFunction vector_function(FunctionId id, int most_lanes = 8);
 
 }  // namespace ulpgate
