@@ -49,7 +49,8 @@ std::set<std::string> texts(const ArgumentList& list, std::size_t argument) {
   for (const auto& point : list) {
     char text[64];
     mpfr_snprintf(text, sizeof text, "%.17Rg", point[argument].get());
-    found.insert(text);
+    // Newer releases of MPFR print the sign of a NaN.
+    found.insert(mpfr_nan_p(point[argument].get()) != 0 ? "nan" : text);
   }
   return found;
 }
