@@ -12,12 +12,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 VERBS = "run explain compare ladder correlate speed".split()
 MODEL = {"--types", "--set", "--dt", "--allow-large", "--help"}
-LENGTH = {"--integrator", "--until", "--steps", "--threads", "--all-parts", "--json"}
+STEPS = {"--threads", "--timeout"}
+LENGTH = STEPS | {"--integrator", "--until", "--steps", "--all-parts", "--json"}
 RECORD = {"--out", "--record", "--series", "--snapshots", "--vtk", "--overwrite"}
 CHECKPOINTS = {"--resume", "--checkpoint-seconds"}
 OPTIONS = {
     "run": MODEL | LENGTH | RECORD | CHECKPOINTS,
-    "explain": MODEL | {"--threads"},
+    "explain": MODEL | STEPS,
     "compare": MODEL | LENGTH | RECORD | {"--own-constants"},
     "ladder": MODEL,
     "correlate": MODEL | LENGTH | RECORD | CHECKPOINTS | {"--reference"},
