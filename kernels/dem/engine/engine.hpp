@@ -21,8 +21,9 @@ struct EngineOptions {
   bool all_parts = false;  // nothing is left out; the trajectory is the same to the last bit
   int threads = 1;
   bool allow_large = false;  // more memory than scenes::most_bytes
-  // Counted up while a call of step() is under way, by whichever thread gets on; never less often than the
-  // work of some thousand pairs of bodies takes.  Null where nobody looks.
+  // Counted up while a call of step() is under way, by whichever thread gets on: after every 4096 pairs of
+  // bodies at most, and before and behind the motion of all bodies.  A rebuild of the list of pairs is not
+  // counted within.  Null where nobody looks.
   std::atomic<std::uint64_t>* progress = nullptr;
 };
 
