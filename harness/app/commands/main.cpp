@@ -7,6 +7,7 @@
 #include "harness/app/machine/watchdog.hpp"
 #include "harness/app/shell/crash_report.hpp"
 #include "harness/app/shell/strict_options.hpp"
+#include "harness/app/stress_commands/stress_commands.hpp"
 #include "reference/types/mpfr_value.hpp"
 
 namespace ulpgate::app {
@@ -26,6 +27,9 @@ int run(int argc, char** argv) {
   add_kernels_command(app, action);
   add_integrators_command(app, action);
   add_scene_command(app, action);
+  add_stress_command(app, action);
+  add_work_precision_command(app, action);
+  add_advise_command(app, action);
   add_at_command(app, action);
   add_search_command(app, action);
   add_merge_command(app, action);

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "kernels/ode/integrators/stop_flag.hpp"
+#include "kernels/ode/stepper/stop_flag.hpp"
 
 namespace ulpgate {
 

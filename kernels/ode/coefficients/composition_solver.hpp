@@ -8,29 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/ode/algebra/dual.hpp"
+#include "kernels/ode/algebra/linear.hpp"
 #include "kernels/ode/coefficients/composition_rows.hpp"
 #include "kernels/ode/coefficients/order_conditions.hpp"
 #include "reference/text/literal.hpp"
 
 namespace ulpgate::ode {
-
-// A value and its derivative with respect to one parameter (forward differentiation).
-template <RealType Real>
-struct Dual {
-  Real value{0};
-  Real slope{0};
-
-  Dual() = default;
-  explicit Dual(int v) : value(v) {}
-  Dual(const Real& v, const Real& s) : value(v), slope(s) {}
-  friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
-  friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
-  friend Dual operator*(const Dual& a, const Dual& b) {
-    return {a.value * b.value, a.value * b.slope + a.slope * b.value};
-  }
-  // Only exact integers are divided by.
-  friend Dual operator/(const Dual& a, const Dual& b) { return {a.value / b.value, a.slope / b.value}; }
-};
 
 namespace detail {
 
@@ -38,32 +22,6 @@ template <class Scalar>
 [[nodiscard]] std::vector<Factor<Scalar>> mirrored(std::vector<Factor<Scalar>> half) {
   for (std::size_t i = half.size() - 1; i-- > 0;) half.push_back(half[i]);
   return half;
-}
-
-// x of a x = b for a small square matrix, by elimination with row pivots.  Eigen's would cost every
-// translation unit some ten seconds per type.
-template <RealType Real>
-[[nodiscard]] std::vector<Real> solved_linear(std::vector<std::vector<Real>> a, std::vector<Real> b) {
-  using std::abs;
-  const std::size_t n = b.size();
-  for (std::size_t c = 0; c < n; ++c) {
-    std::size_t pivot = c;
-    for (std::size_t r = c + 1; r < n; ++r) {
-      if (abs(a[r][c]) > abs(a[pivot][c])) pivot = r;
-    }
-    std::swap(a[c], a[pivot]);
-    std::swap(b[c], b[pivot]);
-    for (std::size_t r = c + 1; r < n; ++r) {
-      const Real factor = a[r][c] / a[c][c];
-      for (std::size_t k = c; k < n; ++k) a[r][k] -= factor * a[c][k];
-      b[r] -= factor * b[c];
-    }
-  }
-  for (std::size_t c = n; c-- > 0;) {
-    for (std::size_t k = c + 1; k < n; ++k) b[c] -= a[c][k] * b[k];
-    b[c] /= a[c][c];
-  }
-  return b;
 }
 
 // The shortest d with J d = residual: d = J^T (J J^T)^-1 residual; columns[j] is column j of J.

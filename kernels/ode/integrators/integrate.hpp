@@ -3,6 +3,9 @@
 
 #include <memory>
 
+#include "kernels/ode/error_control/newton_stepper.hpp"
+#include "kernels/ode/error_control/rosenbrock.hpp"
+#include "kernels/ode/integrators/explicit_runge_kutta.hpp"
 #include "kernels/ode/integrators/gauss_legendre.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
 #include "kernels/ode/integrators/odeint_steppers.hpp"
@@ -11,7 +14,8 @@
 namespace ulpgate::ode {
 
 // An integrator at the start of a problem.  Throws std::invalid_argument for an unknown name, an empty
-// problem and a splitting method on a problem that is not q'' = a(q).
+// problem, a splitting method on a problem that is not q'' = a(q), and a Rosenbrock method on one without its
+// Jacobian.
 template <RealType Real>
 [[nodiscard]] std::unique_ptr<Stepper<Real>> make_stepper(std::string_view name, Problem<Real> problem) {
   const IntegratorInfo& info = find_integrator(name);
@@ -24,8 +28,21 @@ template <RealType Real>
     }
     return std::make_unique<SplittingStepper<Real>>(std::move(problem), splitting<Real>(name));
   }
+  if (info.kind == IntegratorKind::collocation_newton) {
+    const auto nodes = info.name.starts_with("radau") ? CollocationNodes::radau : CollocationNodes::gauss;
+    auto stepper = std::make_unique<NewtonStepper<Real>>(std::move(problem), nodes, info.stages);
+    // Steps of a given size need no estimate.
+    stepper->estimate_errors(false);
+    return stepper;
+  }
+  if (info.kind == IntegratorKind::rosenbrock) {
+    return std::make_unique<RosenbrockStepper<Real>>(std::move(problem));
+  }
   if (info.kind == IntegratorKind::collocation) {
     return std::make_unique<GaussStepper<Real>>(std::move(problem), gauss_tableau<Real>(*info.order / 2));
+  }
+  if (const ExplicitTableau* tableau = find_explicit_tableau(info.name)) {
+    return std::make_unique<ExplicitRungeKuttaStepper<Real>>(std::move(problem), *tableau);
   }
   if (info.name == "cash_karp54") {
     return std::make_unique<OdeintStepper<Real, CashKarp54<Real>>>(std::move(problem));

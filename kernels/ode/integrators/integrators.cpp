@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/ode/coefficients/composition_rows.hpp"
+#include "kernels/ode/integrators/explicit_runge_kutta.hpp"
 
 namespace ulpgate::ode {
 namespace {
@@ -17,7 +18,27 @@ std::vector<IntegratorInfo> all_integrators() {
   }
   for (int stages = 1; stages <= kMostGaussStages; ++stages) {
     list.push_back({"gauss" + std::to_string(stages), IntegratorKind::collocation, 2 * stages, std::nullopt,
-                    "J. C. Butcher, Math. Comp. 18 (1964) 50"});
+                    "J. C. Butcher, Math. Comp. 18 (1964) 50", stages});
+  }
+  for (const int stages : {2, 3, 5, 7, 9}) {
+    list.push_back({"radau" + std::to_string(stages), IntegratorKind::collocation_newton, 2 * stages - 1,
+                    std::nullopt,
+                    "J. C. Butcher, Math. Comp. 18 (1964) 233; E. Hairer, G. Wanner, Solving Ordinary "
+                    "Differential Equations II (1996), IV.5, IV.8",
+                    stages});
+  }
+  for (const int stages : {2, 4, 6}) {
+    list.push_back({"gauss" + std::to_string(stages) + "n", IntegratorKind::collocation_newton, 2 * stages,
+                    std::nullopt,
+                    "J. C. Butcher, Math. Comp. 18 (1964) 50; Newton's iteration as of E. Hairer, G. Wanner, "
+                    "Solving Ordinary Differential Equations II (1996), IV.8",
+                    stages});
+  }
+  list.push_back({"rodas3", IntegratorKind::rosenbrock, 3, 3,
+                  "A. Sandu et al., Atmos. Environ. 31 (1997) 3459, gamma = 1/2"});
+  for (const ExplicitTableau& t : explicit_tableaux()) {
+    list.push_back({std::string(t.name), IntegratorKind::runge_kutta, t.order, static_cast<int>(t.b.size()),
+                    std::string(t.citation)});
   }
   list.push_back({"cash_karp54", IntegratorKind::runge_kutta, 5, 6,
                   "J. R. Cash, A. H. Karp, ACM Trans. Math. Softw. 16 (1990) 201; Boost.odeint"});
@@ -40,6 +61,10 @@ std::string_view to_string(IntegratorKind kind) {
       return "splitting";
     case IntegratorKind::collocation:
       return "collocation";
+    case IntegratorKind::collocation_newton:
+      return "collocation by Newton";
+    case IntegratorKind::rosenbrock:
+      return "rosenbrock";
     case IntegratorKind::runge_kutta:
       return "runge-kutta";
     case IntegratorKind::extrapolation:

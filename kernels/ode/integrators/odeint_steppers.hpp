@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "kernels/ode/integrators/stepper.hpp"
+#include "kernels/ode/stepper/stepper.hpp"
 
 namespace ulpgate::ode {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/ode/integrators/splitting.hpp"
-#include "kernels/ode/integrators/stepper.hpp"
+#include "kernels/ode/stepper/stepper.hpp"
 
 namespace ulpgate::ode {
 

@@ -1,6 +1,7 @@
 // Runge-Kutta tableaux at 248 digits: Gauss-Legendre, and Boost.odeint's against the conditions of all trees.
 #include <gtest/gtest.h>
 
+#include "kernels/ode/integrators/explicit_runge_kutta.hpp"
 #include "kernels/ode/integrators/gauss_legendre.hpp"
 #include "kernels/ode/integrators/odeint_steppers.hpp"
 #include "reference/text/literal.hpp"
@@ -160,6 +161,22 @@ TEST(Odeint, CashKarpIsOfOrder5InFullPrecision) {
 }
 TEST(Odeint, FehlbergIsOfOrder8InFullPrecision) {
   expect_order(fehlberg(), 8, 486);
+}
+
+// Trees up to order p + 1: 2, 4, 8, 17 and 37.
+TEST(ExplicitRungeKutta, TableauxAreOfTheirOrder) {
+  const std::size_t trees[] = {2, 4, 8, 17, 37};
+  for (const ExplicitTableau& tableau : explicit_tableaux()) {
+    SCOPED_TRACE(tableau.name);
+    Tableau t;
+    for (const auto& row : tableau.a) {
+      t.a.emplace_back();
+      for (const Ratio& x : row) t.a.back().push_back(x.in<Reference>());
+    }
+    for (const Ratio& x : tableau.b) t.b.push_back(x.in<Reference>());
+    for (const Ratio& x : tableau.c) t.c.push_back(x.in<Reference>());
+    expect_order(t, tableau.order, trees[tableau.order - 1]);
+  }
 }
 
 }  // namespace

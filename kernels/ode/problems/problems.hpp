@@ -43,14 +43,15 @@ void require(const Real& value, bool good, const char* what) {
 template <RealType Real>
 [[nodiscard]] SolvedProblem<Real> harmonic_oscillator(const Real& w) {
   detail::require(w, w > 0, "harmonic_oscillator: the angular frequency must be positive");
-  const auto acceleration = [w](std::span<const Real> q, std::span<Real> a) { a[0] = -(w * w * q[0]); };
+  const auto acceleration = [w]<class T>(std::span<const T> q, std::span<T> a) { a[0] = -(w * w * q[0]); };
   const auto exact = [w](const Real& t) {
     const Guarded<Real> wide = guarded(w);
     const Guarded<Real> phase = wide * guarded(t);
     return detail::rounded_all<Real>({cos(phase), -wide * sin(phase)});
   };
   const auto energy = [w](std::span<const Real> y) { return Real((y[1] * y[1] + w * w * y[0] * y[0]) / 2); };
-  return {"oscillator", second_order_problem<Real>({Real(1)}, {Real(0)}, acceleration), exact, energy};
+  return {"oscillator", autonomous_second_order_problem<Real>({Real(1)}, {Real(0)}, acceleration), exact,
+          energy};
 }
 
 // q'' = -w^2 sin q from the lowest point with the speed 2 k w, 0 <= k < 1: it swings to sin(q/2) = k, and
@@ -59,7 +60,7 @@ template <RealType Real>
 [[nodiscard]] SolvedProblem<Real> pendulum(const Real& w, const Real& k) {
   detail::require(w, w > 0, "pendulum: the angular frequency must be positive");
   detail::require(k, k >= 0 && k < 1, "pendulum: the modulus is not in [0, 1)");
-  const auto acceleration = [w](std::span<const Real> q, std::span<Real> a) {
+  const auto acceleration = [w]<class T>(std::span<const T> q, std::span<T> a) {
     using std::sin;
     a[0] = -(w * w * sin(q[0]));
   };
@@ -75,7 +76,8 @@ template <RealType Real>
     using std::cos;
     return Real(y[1] * y[1] / 2 + w * w * (1 - cos(y[0])));
   };
-  return {"pendulum", second_order_problem<Real>({Real(0)}, {Real(2 * k * w)}, acceleration), exact, energy};
+  return {"pendulum", autonomous_second_order_problem<Real>({Real(0)}, {Real(2 * k * w)}, acceleration),
+          exact, energy};
 }
 
 // Two bodies, GM = 1, from the perihelion (1, 0) with the speed v, 1 <= v^2 < 2: an ellipse of eccentricity
@@ -83,10 +85,10 @@ template <RealType Real>
 template <RealType Real>
 [[nodiscard]] SolvedProblem<Real> kepler(const Real& v) {
   detail::require(v, v >= 1 && v * v < 2, "kepler: the squared speed at the perihelion is not in [1, 2)");
-  const auto acceleration = [](std::span<const Real> q, std::span<Real> a) {
+  const auto acceleration = []<class T>(std::span<const T> q, std::span<T> a) {
     using std::sqrt;
-    const Real r2 = q[0] * q[0] + q[1] * q[1];
-    const Real r3 = r2 * sqrt(r2);
+    const T r2 = q[0] * q[0] + q[1] * q[1];
+    const T r3 = r2 * sqrt(r2);
     a[0] = -q[0] / r3;
     a[1] = -q[1] / r3;
   };
@@ -117,8 +119,8 @@ template <RealType Real>
     using std::sqrt;
     return Real((y[2] * y[2] + y[3] * y[3]) / 2 - 1 / sqrt(y[0] * y[0] + y[1] * y[1]));
   };
-  return {"kepler", second_order_problem<Real>({Real(1), Real(0)}, {Real(0), v}, acceleration), exact,
-          energy};
+  return {"kepler", autonomous_second_order_problem<Real>({Real(1), Real(0)}, {Real(0), v}, acceleration),
+          exact, energy};
 }
 
 // Euler's equations I1 w1' = (I2 - I3) w2 w3 and cyclic, I1 < I2 < I3, from w = (w1, 0, w3), w1, w3 > 0, near
@@ -132,7 +134,7 @@ template <RealType Real>
                   "rigid_body: moments must increase and the angular velocities be positive");
   detail::require(w3, i1 * (i2 - i1) * w1 * w1 < i3 * (i3 - i2) * w3 * w3,
                   "rigid_body: the rotation is not about the axis of the largest moment");
-  const auto slope = [inertia](const Real&, std::span<const Real> w, std::span<Real> out) {
+  const auto slope = [inertia]<class T>(std::span<const T> w, std::span<T> out) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
@@ -155,7 +157,7 @@ template <RealType Real>
   const auto energy = [inertia](std::span<const Real> w) {
     return Real(((inertia[0] * w[0] * w[0] + inertia[1] * w[1] * w[1]) + inertia[2] * w[2] * w[2]) / 2);
   };
-  return {"rigid_body", first_order_problem<Real>({w1, Real(0), w3}, slope), exact, energy};
+  return {"rigid_body", autonomous_problem<Real>({w1, Real(0), w3}, slope), exact, energy};
 }
 
 // w = 1; k = 1/2; eccentricity 9/16; moments 1, 2, 3: exact in every Real.

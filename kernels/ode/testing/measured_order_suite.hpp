@@ -28,7 +28,7 @@ TYPED_TEST_P(MeasuredOrder, ErrorFallsByTwoToTheOrderPerHalving) {
         continue;
       }
       // Where few halvings fit between 1 and the floor, the order is not yet asymptotic.
-      const double tolerance = ladder.size() > 5 ? 0.05 : ladder.size() > 3 ? 0.2 : 0.1 * *info.order;
+      const double tolerance = ladder.size() > 6 ? 0.05 : ladder.size() > 3 ? 0.2 : 0.1 * *info.order;
       EXPECT_NEAR(ladder.back().order, *info.order, tolerance)
           << info.name << " " << solved.name << " at " << ladder.back().steps << " steps, error "
           << ladder.back().error;

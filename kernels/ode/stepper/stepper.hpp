@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "kernels/ode/integrators/stop_flag.hpp"
 #include "kernels/ode/problems/problem.hpp"
+#include "kernels/ode/stepper/stop_flag.hpp"
 
 namespace ulpgate::ode {
 

@@ -1,0 +1,15 @@
+// `ulpgate stress --truth`: the true solutions of the initial value problems.
+#pragma once
+
+#include <string>
+
+#include "harness/core/verdict/verdict.hpp"
+
+namespace ulpgate::app {
+
+// Prints "case <tab> t <tab> component <tab> value" for each component (from 1) at each end of the problems
+// that `cases` names, and to stderr what of the published values disagrees.  Throws a Failure for unknown
+// names.
+[[nodiscard]] Verdict print_truth(const std::string& cases, int digits, unsigned threads);
+
+}  // namespace ulpgate::app

@@ -1,0 +1,109 @@
+// Engines, step plans, true solutions and the cases of kind "trajectory".
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "harness/core/subject/registry.hpp"
+#include "harness/core/trajectories/trajectory_cases.hpp"
+#include "harness/core/trajectories/truth.hpp"
+
+namespace ulpgate {
+namespace {
+
+double number(const std::string& text) {
+  return std::strtod(text.c_str(), nullptr);
+}
+
+// Known from elsewhere: HIRES and Robertson of Hairer and Wanner's book to its digits, the others to those of
+// a double; components of E5 beside y1 from the closed late phase, y2 = y3.
+TEST(Truth, HasTheDigitsThatArePublished) {
+  const auto hires = true_solution("hires", "321.8122", 20, {});
+  EXPECT_NEAR(number(hires[0].value), 0.7371312573325668e-3, 1e-17);
+  EXPECT_NEAR(number(hires[7].value), 0.2850001604814231e-2, 1e-17);
+  const auto robertson = true_solution("robertson", "40", 25, {});
+  EXPECT_EQ(robertson[0].value.substr(0, 12), "7.1582706871");
+  const auto e5 = true_solution("e5", "1e13", 25, {});
+  EXPECT_NE(e5[0].value.find("e-3441"), std::string::npos) << e5[0].value;
+  EXPECT_EQ(e5[1].value, e5[2].value);
+  const auto kepler = true_solution("kepler", "2 pi", 30, {});
+  EXPECT_EQ(number(kepler[0].value), 0.01);
+  EXPECT_EQ(number(kepler[3].value), std::sqrt(199.0));
+}
+
+TEST(Truth, RefusesWhatIsNone) {
+  EXPECT_THROW((void)true_solution("nothing", "1", 25, {}), std::invalid_argument);
+  EXPECT_THROW((void)true_solution("hires", "1", 25, {}), std::invalid_argument);
+  EXPECT_THROW((void)true_solution("hires", "321.8122", 0, {}), std::invalid_argument);
+  EXPECT_THROW((void)true_solution("hires", "321.8122", most_truth_digits + 1, {}), std::invalid_argument);
+}
+
+TEST(StepPlan, LeadsEveryTypeToTheSameEnd) {
+  const StepPlan& plan = step_plan("oregonator", "360", 1e-6);
+  EXPECT_EQ(&plan, &step_plan("oregonator", "360", 1e-6));
+  EXPECT_GT(plan.steps.size(), 100U);
+  const auto& exact = reference_trajectory_engine(64);
+  const Trajectory reference = exact.planned_steps("oregonator", "radau5", "360", plan, 1, {}, {});
+  const Trajectory own =
+      find_trajectory_engine("double")->planned_steps("oregonator", "radau5", "360", plan, 1, {}, {});
+  EXPECT_LT(relative_distance(own.state, reference.state), 1e-9);
+  EXPECT_NEAR(number(reference.state[0]), 1.000814870318522716, 1e-6);
+  EXPECT_EQ(own.steps, plan.steps.size() + 1);
+}
+
+TEST(TrajectoryEngine, CountsAndKeepsCheckpoints) {
+  const TrajectoryEngine& engine = *find_trajectory_engine("double");
+  const Trajectory t =
+      engine.equal_steps("kepler", "velocity_verlet", "2 pi", 1000, TrajectoryOptions{0, 0, 4}, {});
+  EXPECT_EQ(t.steps, 1000U);
+  EXPECT_EQ(t.evaluations, 1001U);
+  ASSERT_EQ(t.checkpoints.size(), 4U);
+  EXPECT_EQ(t.checkpoints.back(), t.state);
+  ASSERT_TRUE(t.largest_invariant_error);
+  EXPECT_GT(*t.largest_invariant_error, *t.final_invariant_error);
+  // A perturbation behind every step moves the end by much more than itself on this orbit.
+  const Trajectory moved =
+      engine.equal_steps("kepler", "velocity_verlet", "2 pi", 1000, TrajectoryOptions{1e-10, 3, 0}, {});
+  const double distance = relative_distance(moved.state, t.state);
+  EXPECT_GT(distance, 1e-10);
+  EXPECT_LT(distance, 1e-3);
+}
+
+TEST(TrajectoryEngine, ExplicitMethodsEndOnStiffProblems) {
+  const TrajectoryEngine& engine = *find_trajectory_engine("double");
+  const Trajectory t = engine.equal_steps("robertson", "fehlberg78", "40", 200, {});
+  EXPECT_FALSE(t.finite);
+  EXPECT_LT(t.first_not_finite, 200U);
+  EXPECT_TRUE(t.state.empty());
+  const Trajectory refused = engine.equal_steps("van_der_pol", "gauss4", "2", 50, {});
+  EXPECT_NE(refused.refusal.find("do not converge"), std::string::npos) << refused.refusal;
+  EXPECT_THROW((void)engine.equal_steps("nothing", "rk4", "2", 50, {}), std::invalid_argument);
+  EXPECT_THROW((void)engine.applies("rk4", "nothing"), std::invalid_argument);
+}
+
+TEST(Distances, AreNormwiseAndComponentwise) {
+  const std::vector<std::string> a{"0x1p+0", "0x1.8p-20"};
+  const std::vector<std::string> b{"0x1p+0", "0x1p-20"};
+  EXPECT_EQ(relative_distance(a, b), 0x1p-21);
+  EXPECT_EQ(componentwise_distance(a, b, {1, 1}), 0.5);
+  // What has decayed to nothing does not count.
+  const std::vector<std::string> gone{"0x1p+0", "0x1p-200"};
+  EXPECT_LT(componentwise_distance({"0x1p+0", "0x0p+0"}, gone, {1, 1}), 1e-29);
+}
+
+TEST(TrajectoryCases, ComeToWhatIsKnownInFloatAndDouble) {
+  for (const auto& c : trajectory_cases()) {
+    if (c.name != "robertson" && c.name != "arenstorf" && c.form.find("1000") == std::string::npos) continue;
+    for (const char* token : {"float", "double"}) {
+      const auto row = c.run(token, {});
+      ASSERT_TRUE(row) << c.key();
+      const auto standing = standing_of(c, token, row->verdict);
+      EXPECT_TRUE(standing.as_known) << c.key() << " " << token << ": " << to_string(row->verdict)
+                                     << ", known is " << standing.expected << ", E " << row->error.value_or(0)
+                                     << " kappa " << row->condition.value_or(0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ulpgate

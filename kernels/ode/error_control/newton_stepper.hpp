@@ -1,0 +1,265 @@
+// Collocation methods for stiff problems: their stage equations solved by Newton's iteration.
+//
+// Stages Z_i = h sum_j a_ij f(y + Z_j): E. Hairer, G. Wanner, Solving Ordinary Differential Equations II
+// (1996), IV.8.  The iteration begins with one Jacobian for all stages (simplified Newton) and goes on with
+// one a stage where that converges too slowly for the digits that are wanted.
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "kernels/ode/algebra/linear.hpp"
+#include "kernels/ode/coefficients/collocation.hpp"
+#include "kernels/ode/stepper/error_stepper.hpp"
+#include "reference/types/eigen_traits.hpp"
+
+namespace ulpgate::ode {
+
+namespace detail {
+
+// d of sum_i d_i a_ij = b_j: the weights of the stages themselves in the step, y + sum d_i Z_i, which
+// multiply no large slope by a small weight.
+template <RealType Real>
+[[nodiscard]] std::vector<Real> weights_of_stages(const CollocationTableau<Real>& t) {
+  const std::size_t s = t.c.size();
+  std::vector<std::vector<Real>> transposed(s, std::vector<Real>(s));
+  for (std::size_t i = 0; i < s; ++i) {
+    for (std::size_t j = 0; j < s; ++j) transposed[j][i] = t.a[i][j];
+  }
+  return solved_linear(std::move(transposed), t.b);
+}
+
+}  // namespace detail
+
+// What a stepper derives from a tableau besides it.
+template <RealType Real>
+struct ImplicitWeights {
+  std::vector<Real> stages;   // d: y1 = y + sum d_i Z_i
+  std::vector<Real> at_zero;  // l_j(0): the collocation polynomial's slope extrapolated to the step's start
+};
+
+// Computed with guard digits, rounded once and kept.
+template <RealType Real>
+[[nodiscard]] const ImplicitWeights<Real>& implicit_weights(CollocationNodes nodes, int stages) {
+  static std::mutex mutex;
+  static std::map<std::pair<CollocationNodes, int>, ImplicitWeights<Real>> known;
+  const std::scoped_lock lock(mutex);
+  const std::pair key{nodes, stages};
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  const auto wide = nodes == CollocationNodes::gauss ? compute_gauss_tableau<Guarded<Real>>(stages)
+                                                     : compute_radau_tableau<Guarded<Real>>(stages);
+  ImplicitWeights<Real> w;
+  if (nodes == CollocationNodes::radau) {
+    w.stages.assign(wide.c.size(), Real(0));
+    w.stages.back() = Real(1);
+  } else {
+    for (const auto& x : detail::weights_of_stages(wide)) w.stages.push_back(rounded<Real>(x));
+  }
+  for (std::size_t j = 0; j < wide.c.size(); ++j) {
+    Guarded<Real> l(1);
+    for (std::size_t m = 0; m < wide.c.size(); ++m) {
+      if (m != j) l *= wide.c[m] / (wide.c[m] - wide.c[j]);
+    }
+    w.at_zero.push_back(rounded<Real>(l));
+  }
+  return known.emplace(key, std::move(w)).first->second;
+}
+
+// Of s stages: order 2s (Gauss) or 2s - 1 (Radau IIA); the error's estimate is of order s + 1.
+template <RealType Real>
+class NewtonStepper final : public ErrorStepper<Real> {
+ public:
+  NewtonStepper(Problem<Real> problem, CollocationNodes nodes, int stages)
+      : ErrorStepper<Real>(std::move(problem)),
+        nodes_(nodes),
+        t_(collocation_tableau<Real>(nodes, stages)),
+        w_(implicit_weights<Real>(nodes, stages)) {}
+
+  [[nodiscard]] int error_order() const override { return static_cast<int>(s()) + 1; }
+  // Relative, of each component of the stages; that of rounding where it is smaller.
+  void set_newton_tolerance(const Real& tolerance) { tolerance_ = tolerance; }
+  // Leave out the error's estimate, which needs a decomposition of its own.
+  void estimate_errors(bool wanted) { estimates_ = wanted; }
+
+  [[nodiscard]] bool attempt(const Real& t, const Real& h) override {
+    using std::isfinite;
+    z_.assign(s(), std::vector<Real>(n(), Real(0)));
+    slopes_.assign(s(), std::vector<Real>(n()));
+    jacobian(t, this->state(), jacobian_);
+    decompose_with_one(h);
+    if (!iterate(t, h)) return false;
+    finish(t, h);
+    return true;
+  }
+
+ protected:
+  [[nodiscard]] std::string failure() const override {
+    return std::string(nodes_ == CollocationNodes::gauss ? "Gauss-Legendre" : "Radau IIA") +
+           ": Newton's iteration for the stages does not converge at this step size";
+  }
+
+ private:
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
+  [[nodiscard]] std::size_t n() const { return this->state().size(); }
+  [[nodiscard]] std::size_t s() const { return t_.c.size(); }
+  [[nodiscard]] static Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+  // df/dy, row by row; by differences where the problem does not know it, which Newton's iteration forgives.
+  void jacobian(const Real& t, std::span<const Real> y, std::vector<Real>& out) {
+    using std::abs, std::sqrt;
+    out.resize(n() * n());
+    if (this->problem().jacobian) return this->problem().jacobian(t, y, out);
+    Real size(0);
+    for (const Real& x : y) size = abs(x) > size ? Real(abs(x)) : size;
+    if (size == 0) size = Real(1);
+    const Real small = sqrt(std::numeric_limits<Real>::epsilon());
+    std::vector<Real> moved(y.begin(), y.end());
+    std::vector<Real> slope(n());
+    std::vector<Real> slope_moved(n());
+    this->problem().slope(t, y, slope);
+    for (std::size_t j = 0; j < n(); ++j) {
+      moved[j] = y[j] + small * size;
+      const Real step = moved[j] - y[j];
+      this->problem().slope(t, moved, slope_moved);
+      for (std::size_t i = 0; i < n(); ++i) out[i * n() + j] = (slope_moved[i] - slope[i]) / step;
+      moved[j] = y[j];
+    }
+  }
+
+  // I - h A (x) J with one Jacobian of all stages, or with that of each.
+  void decompose_with_one(const Real& h) {
+    Matrix m(at(s() * n()), at(s() * n()));
+    for (std::size_t j = 0; j < s(); ++j) fill_block(m, j, h, jacobian_);
+    lu_.compute(m);
+  }
+  void decompose_with_each(const Real& t, const Real& h) {
+    Matrix m(at(s() * n()), at(s() * n()));
+    std::vector<Real> stage(n());
+    std::vector<Real> j_of_stage;
+    for (std::size_t j = 0; j < s(); ++j) {
+      for (std::size_t d = 0; d < n(); ++d) stage[d] = this->state()[d] + z_[j][d];
+      jacobian(Real(t + t_.c[j] * h), stage, j_of_stage);
+      fill_block(m, j, h, j_of_stage);
+    }
+    lu_.compute(m);
+  }
+  void fill_block(Matrix& m, std::size_t j, const Real& h, const std::vector<Real>& j_of_stage) const {
+    for (std::size_t i = 0; i < s(); ++i) {
+      const Real factor = h * t_.a[i][j];
+      for (std::size_t r = 0; r < n(); ++r) {
+        for (std::size_t c = 0; c < n(); ++c)
+          m(at(i * n() + r), at(j * n() + c)) =
+              (i == j && r == c ? Real(1) : Real(0)) - factor * j_of_stage[r * n() + c];
+      }
+    }
+  }
+
+  void evaluate_stages(const Real& t, const Real& h) {
+    std::vector<Real> stage(n());
+    for (std::size_t j = 0; j < s(); ++j) {
+      for (std::size_t d = 0; d < n(); ++d) stage[d] = this->state()[d] + z_[j][d];
+      this->problem().slope(Real(t + t_.c[j] * h), stage, slopes_[j]);
+    }
+  }
+
+  // One correction of all stages; its largest component relative to the size of the component.
+  [[nodiscard]] Real correct(const Real& h) {
+    using std::abs;
+    Vector residual(at(s() * n()));
+    for (std::size_t i = 0; i < s(); ++i) {
+      for (std::size_t d = 0; d < n(); ++d) {
+        Real sum(0);
+        for (std::size_t j = 0; j < s(); ++j) sum += t_.a[i][j] * slopes_[j][d];
+        residual(at(i * n() + d)) = h * sum - z_[i][d];
+      }
+    }
+    const Vector change = lu_.solve(residual);
+    Real largest(0);
+    for (std::size_t d = 0; d < n(); ++d) {
+      Real size = abs(this->state()[d]);
+      Real moved(0);
+      for (std::size_t i = 0; i < s(); ++i) {
+        const Real& dz = change(at(i * n() + d));
+        z_[i][d] += dz;
+        if (abs(z_[i][d]) > size) size = abs(z_[i][d]);
+        if (!(abs(dz) <= moved)) moved = abs(dz);
+      }
+      if (moved == 0) continue;
+      const Real relative = moved / size;
+      if (!(relative <= largest)) largest = relative;
+    }
+    return largest;
+  }
+
+  // Until the stages' error is below the tolerance, or rounding keeps it from falling on.
+  [[nodiscard]] bool iterate(const Real& t, const Real& h) {
+    using std::isfinite, std::log, std::sqrt;
+    const Real u = std::numeric_limits<Real>::epsilon() / 2;
+    const Real wanted = tolerance_ > u ? tolerance_ : u;
+    // A decomposition costs about as much as a third of the equations' number of corrections.
+    const Real worth(static_cast<int>(std::max<std::size_t>(4, s() * n() / 3)));
+    Real before(0);
+    int without_progress = 0;
+    for (int iteration = 0; iteration < 200; ++iteration) {
+      this->stop().check();
+      evaluate_stages(t, h);
+      const Real change = correct(h);
+      if (!isfinite(change)) return false;
+      if (change == 0) return true;
+      if (iteration > 0) {
+        const Real rate = change / before;
+        if (rate < 1 && change * rate <= wanted * (1 - rate)) return true;
+        if (rate > Real(1) / 2 && ++without_progress >= 3) return change < sqrt(u) / 16;
+        const bool slow = !(rate < 1) || log(Real(wanted / change)) < worth * log(rate);
+        if (slow) decompose_with_each(t, h);
+      }
+      before = change;
+    }
+    return false;
+  }
+
+  void finish(const Real& t, const Real& h) {
+    this->candidate_.assign(this->state().begin(), this->state().end());
+    for (std::size_t d = 0; d < n(); ++d) {
+      Real sum(0);
+      for (std::size_t i = 0; i < s(); ++i) sum += w_.stages[i] * z_[i][d];
+      this->candidate_[d] += sum;
+    }
+    if (!estimates_) return;
+    // h g (I - h g J)^-1 (f(y) - p'(0)), p the collocation polynomial: of order s + 1, and damped where the
+    // problem is stiff (Hairer, Wanner IV.8, with any g > 0 in the place of the real eigenvalue).
+    const Real g = h / static_cast<Real>(2 * s());
+    evaluate_stages(t, h);
+    std::vector<Real> slope(n());
+    this->problem().slope(t, this->state(), slope);
+    Vector difference(at(n()));
+    Matrix m(at(n()), at(n()));
+    for (std::size_t d = 0; d < n(); ++d) {
+      Real sum = slope[d];
+      for (std::size_t j = 0; j < s(); ++j) sum -= w_.at_zero[j] * slopes_[j][d];
+      difference(at(d)) = g * sum;
+      for (std::size_t c = 0; c < n(); ++c)
+        m(at(d), at(c)) = (d == c ? Real(1) : Real(0)) - g * jacobian_[d * n() + c];
+    }
+    const Vector damped = Eigen::PartialPivLU<Matrix>(m).solve(difference);
+    this->error_.resize(n());
+    for (std::size_t d = 0; d < n(); ++d) this->error_[d] = damped(at(d));
+  }
+
+  CollocationNodes nodes_;
+  const CollocationTableau<Real>& t_;
+  const ImplicitWeights<Real>& w_;
+  Real tolerance_{0};
+  bool estimates_ = true;
+  std::vector<Real> jacobian_;
+  std::vector<std::vector<Real>> z_;
+  std::vector<std::vector<Real>> slopes_;
+  Eigen::PartialPivLU<Matrix> lu_;
+};
+
+}  // namespace ulpgate::ode
