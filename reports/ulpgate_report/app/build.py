@@ -6,9 +6,18 @@ from ulpgate_report.math import kind as kind_math
 from ulpgate_report.page import page, page_views
 from ulpgate_report.pendulum import kind as kind_pendulum
 from ulpgate_report.scenes import kind as kind_scenes
+from ulpgate_report.stability import kind as kind_stability
 from ulpgate_report.tables import table_csv, table_latex, table_markdown
+from ulpgate_report.work_precision import kind as kind_work_precision
 
-KINDS = (kind_math, kind_kernels, kind_pendulum, kind_scenes)
+KINDS = (
+    kind_math,
+    kind_kernels,
+    kind_pendulum,
+    kind_scenes,
+    kind_stability,
+    kind_work_precision,
+)
 _FORMATS = {
     "csv": table_csv.render,
     "md": table_markdown.render,
@@ -91,6 +100,8 @@ def write_report(context, parts, out, left_out=()):
             data.get(kind_kernels),
             data.get(kind_scenes),
             data.get(kind_pendulum),
+            data.get(kind_stability),
+            data.get(kind_work_precision),
         ),
     )
     drawn = _write_figures(parts, out)
@@ -103,6 +114,6 @@ def write_report(context, parts, out, left_out=()):
     output.write_text(
         out / "index.html", page.render(context, headlines, sections, curves)
     )
-    noting = [kind for kind in (kind_pendulum, kind_scenes) if kind in data]
+    noting = [kind for kind in data if hasattr(kind, "notes")]
     found = [sentence for kind in noting for sentence in kind.notes(data[kind], drawn)]
     return [*left_out, *found]

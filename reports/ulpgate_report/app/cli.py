@@ -1,5 +1,6 @@
 """The command line of the reports: arguments, messages and exit codes."""
 import argparse
+import dataclasses
 import os
 import sys
 from pathlib import Path
@@ -8,18 +9,36 @@ from ulpgate_report.app import build
 from ulpgate_report.records import suite
 from ulpgate_report.records.errors import OutputFailure, ReportError
 from ulpgate_report.tables import table_text
+from ulpgate_report.work_precision import axes
 
 EXIT_OK = 0
+
+
+def _pair(text):
+    try:
+        return axes.pair(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _parser():
     parser = argparse.ArgumentParser(
         prog="report",
-        description="Tables, figures and a page from the records that `ulpgate` wrote to DIR: of math functions, of DEM kernels "
-        "of scenes, of the pendulum and of integrators, whichever are there; DIR may also be a directory of such directories.",
+        description="Tables, figures and a page from the records that `ulpgate` wrote to DIR: of math functions, of DEM kernels, "
+        "of scenes, of the pendulum, of integrators, of stiff and extreme cases and of error against run time, whichever are there; "
+        "DIR may also be a directory of such directories.",
         epilog="exit codes: 0 ok, 2 bad usage or invalid input, 3 nothing measured, 4 I/O failure",
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="the records")
+    parser.add_argument(
+        "--axes",
+        metavar="X,Y",
+        action="append",
+        default=[],
+        type=_pair,
+        help="draw error against run time with these axes, two of "
+        f"{', '.join(axes.QUANTITIES)}; may be given more than once (default: {','.join(axes.DEFAULT)})",
+    )
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--out", metavar="OUT", type=Path, help="write the report there")
     what.add_argument(
@@ -50,6 +69,8 @@ def main(argv):
     arguments = _parser().parse_args(argv)
     try:
         run = suite.load(arguments.directory)
+        # Each pair once, as it was given first.
+        run = dataclasses.replace(run, axes=tuple(dict.fromkeys(arguments.axes)))
         parts = build.parts_of(run)
         if not run.context.get("complete", True):
             print(

@@ -5,6 +5,7 @@ from ulpgate_report.integrators import orders
 from ulpgate_report.math import combine
 from ulpgate_report.records import reading
 from ulpgate_report.values import numbers
+from ulpgate_report.work_precision import tables as work_precision_tables
 
 
 def _cell(combined, row, token):
@@ -80,7 +81,20 @@ def _order(one):
     }
 
 
-def build(context, combined=None, kernels=None, scenes=None, pendulum=None):
+def _best(setting, is_best):
+    """A setting of the front as its record, with its times, and whether no type betters it."""
+    return {**setting, "best_of_all_types": is_best}
+
+
+def build(
+    context,
+    combined=None,
+    kernels=None,
+    scenes=None,
+    pendulum=None,
+    stress=None,
+    work_precision=None,
+):
     """The summary as an object that its schema accepts; what was not run is left out."""
     found = {"tool": context["tool"], "plan": context["plan"]}
     judged = combined or kernels
@@ -101,6 +115,12 @@ def build(context, combined=None, kernels=None, scenes=None, pendulum=None):
     if pendulum:
         found["correlations"] = list(pendulum.correlations)
         found["orders"] = [_order(c) for c in orders.convergences(pendulum.orders)]
+    if stress:
+        found["stress"] = list(stress.rows)
+    if work_precision:
+        front = work_precision_tables.front_rows(work_precision)
+        found["work_precision_front"] = [_best(*one) for one in front]
+        found["work_precision_fits"] = list(work_precision.fits)
     # A broken summary is a fault of this program, not of its input: let it abort.
     reading.validator("summary").validate(found)
     return found

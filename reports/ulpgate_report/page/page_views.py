@@ -38,6 +38,8 @@ def _cell_view(cell, kind):
         "boxed": kind == "command",
         "prose": kind == "prose",
         "style": None,
+        "href": None,
+        "anchor": None,
     }
 
 
@@ -57,8 +59,11 @@ def table_view(table):
     }
 
 
-def heat_view(table, cells, value_of, hover, scale):
-    """A matrix with colours and hover text; `cells` has a line of cells for each row of the table."""
+def heat_view(table, cells, value_of, hover, scale, link=None):
+    """A matrix with colours and hover text; `cells` has a line of cells for each row of the table.
+
+    `link` gives the anchor on the page that a cell leads to.
+    """
     view = table_view(table)
     for line, shown_line in zip(cells, view["rows"]):
         for cell, shown in zip(line, shown_line[1:]):
@@ -69,7 +74,15 @@ def heat_view(table, cells, value_of, hover, scale):
             if value is not None:
                 back, front = scale.background(value), scale.foreground(value)
                 shown["style"] = f"background:{back};color:{front}"
+            if link is not None:
+                shown["href"] = link(cell)
     return view
+
+
+def anchor_rows(view, names):
+    """Give each row of a table the anchor that cells of others lead to."""
+    for row, name in zip(view["rows"], names, strict=True):
+        row[0]["anchor"] = name
 
 
 def table(view, none_text="None."):

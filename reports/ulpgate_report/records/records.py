@@ -7,6 +7,8 @@ from ulpgate_report.records import (
     pendulum_records,
     reading,
     scene_records,
+    stress_records,
+    work_precision_records,
 )
 from ulpgate_report.records.errors import Incomplete, InvalidInput, NothingMeasured
 
@@ -15,7 +17,8 @@ from ulpgate_report.records.errors import Incomplete, InvalidInput, NothingMeasu
 class Run:
     """One run as read; what was not run is empty. `time_ns` has the time of (what, type).
 
-    `notes` are sentences about what was left out.
+    `notes` are sentences about what was left out. `axes` are the pairs of axes that error against run time is drawn
+    with, as they were asked for; empty for those of the report.
     """
 
     context: dict
@@ -25,6 +28,9 @@ class Run:
     scenes: object = None
     pendulum: object = None
     notes: tuple = ()
+    stress: object = None
+    work_precision: object = None
+    axes: tuple = ()
 
 
 def _require(context, name, file):
@@ -158,9 +164,13 @@ def load(directory, name="", chains=None):
     times, scene_times = _load_timing(directory / "timing.jsonl")
     has_scenes = bool(scene_times) or scene_records.are_in(directory)
     has_pendulum = pendulum_records.are_in(directory)
-    if not (has_math or has_kernels or has_scenes or has_pendulum):
+    has_stress = stress_records.are_in(directory)
+    has_work = work_precision_records.are_in(directory)
+    judged = has_math or has_kernels or has_stress or has_work
+    if not (judged or has_scenes or has_pendulum):
         raise NothingMeasured(
-            f"{directory}: no record in math.jsonl, kernels.jsonl, scenes.jsonl, correlation.jsonl, orders.jsonl or drift.jsonl"
+            f"{directory}: no record in math.jsonl, kernels.jsonl, scenes.jsonl, correlation.jsonl, orders.jsonl, drift.jsonl, "
+            f"{stress_records.FILE} or {work_precision_records.FILE}"
         )
     path = directory / "context.json"
     context = reading.parse(reading.read(path), path.name, "context")
@@ -174,6 +184,10 @@ def load(directory, name="", chains=None):
         tuple(_load_kernels(kernels_path, context)) if has_kernels else (),
         scenes,
         _load_pendulum(name, directory, context, chains, scenes),
+        stress=stress_records.load(directory) if has_stress else None,
+        work_precision=(
+            work_precision_records.load(directory, context) if has_work else None
+        ),
     )
     # Last: a line that is refused says more.
     checksums.check(directory, context)

@@ -1,7 +1,13 @@
 """A suite: a directory of run directories, reported as one; a directory that is a run by itself is read as that."""
 from pathlib import Path
 
-from ulpgate_report.records import pendulum_records, records, scene_records
+from ulpgate_report.records import (
+    pendulum_records,
+    records,
+    scene_records,
+    stress_records,
+    work_precision_records,
+)
 from ulpgate_report.records.errors import InvalidInput, NothingMeasured
 
 _CONTEXT = "context.json"
@@ -89,6 +95,40 @@ def _merged_scenes(runs):
     )
 
 
+def _of_all(runs, what):
+    """[(run's name where several have it, else empty, what it has)] of the runs that have any."""
+    found = [(name, getattr(run, what)) for name, run in runs.items()]
+    found = [(name, one) for name, one in found if one is not None]
+    return found if len(found) > 1 else [("", one) for _, one in found]
+
+
+def _told_apart(run, field, rows):
+    """The lines under names that tell the run, as those of scenes do."""
+    return [{**row, field: "_".join(filter(None, (row[field], run)))} for row in rows]
+
+
+def _merged_stress(runs):
+    """The cases of all runs, None where no run has any."""
+    found = _of_all(runs, "stress")
+    rows = [row for run, one in found for row in _told_apart(run, "case", one.rows)]
+    return stress_records.made_of(rows) if found else None
+
+
+def _merged_work_precision(runs):
+    """The settings of all runs, None where no run has any."""
+    found = _of_all(runs, "work_precision")
+    rows, fits, bits = [], [], {}
+    for run, one in found:
+        rows += _told_apart(run, "name", one.rows)
+        fits += _told_apart(run, "name", one.fits)
+        bits.update(one.bits)
+    untold = sum(one.untold for _, one in found)
+    merged = work_precision_records.WorkPrecision(
+        tuple(rows), tuple(fits), bits, untold
+    )
+    return merged if found else None
+
+
 def _load_members(paths):
     """({name: run}, sentences about those left out)."""
     chains = set()
@@ -142,7 +182,8 @@ def load(directory):
     runs, notes = _load_members(paths)
     scenes = _merged_scenes(runs)
     chains = [one for run in runs.values() if run.pendulum for one in run.pendulum.runs]
-    if not (scenes or chains):
+    stress, work_precision = _merged_stress(runs), _merged_work_precision(runs)
+    if not (scenes or chains or stress or work_precision):
         raise NothingMeasured(f"{directory}: no record of a scene in any run")
     return records.Run(
         _merged_context({name: run.context for name, run in runs.items()}),
@@ -151,4 +192,6 @@ def load(directory):
         scenes=scenes,
         pendulum=pendulum_records.Pendulum(tuple(chains)) if chains else None,
         notes=(*notes, *_notes(directory, runs)),
+        stress=stress,
+        work_precision=work_precision,
     )

@@ -3,6 +3,7 @@ from ulpgate_report.tables import cell_text
 
 ARGUMENT_DIGITS = 13
 COLUMNS_OF_PORTRAIT = 9
+PROSE_MM, SHARED_PROSE_MM = 70, 80
 _SPECIAL = {
     "\\": r"\textbackslash{}",
     "~": r"\textasciitilde{}",
@@ -51,9 +52,9 @@ def _text(cell, kind):
     return shown + rf"\textsuperscript{{{escape(mark)}}}" if mark else shown
 
 
-def _shape(kind):
+def _shape(kind, prose_mm):
     if kind == "prose":
-        return r">{\raggedright\arraybackslash}p{70mm}"
+        return rf">{{\raggedright\arraybackslash}}p{{{prose_mm}mm}}"
     return "r" if kind in cell_text.NUMERIC_KINDS else "l"
 
 
@@ -72,7 +73,10 @@ def _caption(table):
 def render(table):
     """The longtable; it repeats its head on every page."""
     kinds = [column.kind for column in table.columns]
-    shape = "".join(map(_shape, kinds))
+    # One column of prose has room; several are in tables that are wide already.
+    several = kinds.count("prose")
+    prose_mm = PROSE_MM if several < 2 else SHARED_PROSE_MM // several
+    shape = "".join(_shape(kind, prose_mm) for kind in kinds)
     titles = []
     for column in table.columns:
         title = escape(column.title)

@@ -1,4 +1,4 @@
-// Sorting and filtering of the tables.
+// Sorting and filtering of the tables, and links to their rows.
 "use strict";
 (function () {
   const tables = Array.from(document.querySelectorAll("table.data"));
@@ -55,6 +55,19 @@
     });
     document.getElementById("count").textContent = words.length ? shown + " of " + lines.length + " rows" : "";
   }
+
+  // A link may lead to a row of a closed list, or of one that the filter hides.
+  function show() {
+    const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    if (!target) return;
+    const closed = target.closest("details");
+    if (closed) closed.open = true;
+    const row = target.closest("tr");
+    if (row) row.hidden = false;
+    if (closed) target.scrollIntoView({ block: "center", inline: "start" });
+  }
+  window.addEventListener("hashchange", show);
+  show();
 
   const box = document.getElementById("filter");
   let waiting = 0;
