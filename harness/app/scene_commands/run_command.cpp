@@ -20,10 +20,12 @@ void add_scene_run_command(CLI::App& scene, Action& action) {
         auto* out = add_out_option(verb, *o);
         add_record_options(verb, *o, out, "write the series alone");
         add_checkpoint_options(verb, *o, out);
+        add_collisions_option(verb, *o);
         add_json_option(verb, *o);
       },
       [o] {
-        return run_batch(make_task(*o, "scene run"), {std::nullopt, o->json});
+        return run_batch(make_task(*o, "scene run", o->scene.collisions ? " with collisions" : ""),
+                         {std::nullopt, o->json});
       });
 }
 

@@ -60,9 +60,11 @@ FinishedRun run_one(const std::string& token, const SceneTask& task, const Batch
   return run;
 }
 
-void write_records(const SceneTask& task, const std::string& text, bool complete) {
+void write_records(const SceneTask& task, const std::string& text, const std::string& collisions,
+                   bool complete) {
   const OutputDirectory& out = *task.records.directory;
   out.write(scene_records_file, text);
+  if (task.job.collisions) out.write(collision_records_file, collisions);
   Json context = task.records.context;
   context["complete"] = complete;
   out.finish(std::move(context), complete);
@@ -73,6 +75,7 @@ void write_records(const SceneTask& task, const std::string& text, bool complete
 Verdict run_batch(const SceneTask& task, const BatchRequest& batch) {
   const std::filesystem::path& out = task.records.out;
   std::string text;
+  std::string collisions;
   bool complete = true;
   Verdict verdict;
   for (const auto& token : task.types) {
@@ -88,14 +91,16 @@ Verdict run_batch(const SceneTask& task, const BatchRequest& batch) {
     if (!batch.json) {
       print_row(row, task.job, *run.engine);
       if (!run.engine->energy_names().empty()) print_energy(run.statistics);
+      if (task.job.collisions) fmt::print("{}", summary_text(run.collisions));
       print_divergence(run.divergence);
     }
     text += row.dump() + "\n";
     complete = run.complete;
     if (!complete) break;
+    if (task.job.collisions && !out.empty()) collisions += collision_lines_of(out, stem_of(task.job, token));
   }
   if (batch.json) fmt::print("{}", text);
-  if (!out.empty()) write_records(task, text, complete && verdict.passes());
+  if (!out.empty()) write_records(task, text, collisions, complete && verdict.passes());
   if (!complete) {
     throw Failure(Standing::incomplete,
                   out.empty()     ? "interrupted"

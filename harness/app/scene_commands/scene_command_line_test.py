@@ -4,7 +4,9 @@ import csv
 import json
 import os
 import pathlib
+import signal
 import subprocess
+import time
 
 import pytest
 
@@ -17,7 +19,7 @@ LENGTH = STEPS | {"--integrator", "--until", "--steps", "--all-parts", "--json"}
 RECORD = {"--out", "--record", "--series", "--snapshots", "--vtk", "--overwrite"}
 CHECKPOINTS = {"--resume", "--checkpoint-seconds"}
 OPTIONS = {
-    "run": MODEL | LENGTH | RECORD | CHECKPOINTS,
+    "run": MODEL | LENGTH | RECORD | CHECKPOINTS | {"--collisions"},
     "explain": MODEL | STEPS,
     "compare": MODEL | LENGTH | RECORD | {"--own-constants"},
     "ladder": MODEL,
@@ -25,7 +27,7 @@ OPTIONS = {
     "speed": MODEL | LENGTH | {"--out", "--repeats"},
 }
 EVERY = sorted(set().union(*OPTIONS.values()) - {"--help"})
-FLAGS = "--allow-large --all-parts --json --record --series --vtk --overwrite --resume --own-constants"
+FLAGS = "--allow-large --all-parts --json --record --series --vtk --overwrite --resume --own-constants --collisions"
 
 
 def run(*words):
@@ -211,3 +213,82 @@ def test_velocities_of_a_composition_method_are_on_the_step(tmp_path):
         on_step, rel=1e-14
     )
     assert float(row["kinetic_on_step_J"]) == on_step
+
+
+COLLISIONS = "--steps 12000 --types float,double --set speed=5 --collisions".split()
+
+
+def test_a_ledger_lists_collisions_and_changes_no_record(tmp_path):
+    words = ["scene", "run", "packing", *COLLISIONS, "--series"]
+    ledger, plain = tmp_path / "ledger", tmp_path / "plain"
+    assert run(*words, "--out", ledger)[0] == 0
+    words.remove("--collisions")
+    code, out, _ = run(*words, "--out", plain)
+    assert code == 0 and "collisions" not in out
+    assert not (plain / "collisions.jsonl").exists()
+    for file in ("scenes.jsonl", "series/packing_double.csv"):
+        assert (ledger / file).read_bytes() == (plain / file).read_bytes()
+    rows = [
+        json.loads(line)
+        for line in (ledger / "collisions.jsonl").read_text().splitlines()
+    ]
+    for token in ("float", "double"):
+        mine = [r for r in rows if r["type"] == token]
+        totals = mine.pop()
+        assert totals["what"] == "ledger" and totals["beyond"] == 0
+        assert totals["rows"] == totals["ended"] + totals["still_open"] == len(mine)
+        assert totals["ended"] > 20 and totals["still_open"] > 0
+        ended = [r for r in mine if not r["open"]]
+        assert min(r["steps_inside"] for r in ended) == totals["shortest_steps"]
+        assert max(r["energy_created"] for r in ended) == totals["largest_created"]
+        assert all(r["restitution"] is None for r in mine if r["open"])
+        assert [r["end_step"] for r in mine] == sorted(r["end_step"] for r in mine)
+    assert not (ledger / "checkpoints").exists()
+
+
+def test_an_interrupted_ledger_goes_on_to_the_same_bytes(tmp_path):
+    words = ["scene", "run", "packing", *COLLISIONS]
+    straight, broken = tmp_path / "straight", tmp_path / "broken"
+    assert run(*words, "--threads", 2, "--out", straight)[0] == 0
+    often = ["--checkpoint-seconds", "0", "--out", str(broken)]
+    process = subprocess.Popen(
+        [ULPGATE, *map(str, [*words, *often])], cwd=ROOT, stdout=subprocess.DEVNULL
+    )
+    checkpoint = broken / "checkpoints" / "packing_float.json"
+    while process.poll() is None and not (
+        checkpoint.exists() and '"rows":0' not in checkpoint.read_text()
+    ):
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    assert process.wait() == 3, "interrupted in the midst of it"
+    plain = [w for w in words if w != "--collisions"]
+    code, _, err = run(*plain, *often, "--resume")
+    assert code != 0 and "collisions" in err, err
+    code, _, err = run(*words, *often, "--resume")
+    assert code == 0, err
+    for file in ("scenes.jsonl", "collisions.jsonl"):
+        assert (broken / file).read_bytes() == (straight / file).read_bytes()
+
+
+def test_the_gate_holds_collisions_to_their_condition(tmp_path):
+    out, budgets = tmp_path / "out", tmp_path / "budgets"
+    words = "scene run cradle --types double --collisions --series --out".split()
+    assert run(*words, out)[0] == 0
+    assert run("gate", out, "--budgets", budgets, "--update")[0] == 0
+    assert "max_energy_created = 4.4" in (budgets / "cradle.toml").read_text()
+    assert run("gate", out, "--budgets", budgets)[0] == 0
+    # A step that no contact is stable with makes energy that no bound excuses.
+    unstable = tmp_path / "unstable"
+    words = "scene run bouncing --types double --dt 1e-3 --collisions --series".split()
+    words += "--set material.ball.collision_time=1.0097e-3 --out".split()
+    assert run(*words, unstable)[0] == 0
+    fresh = tmp_path / "fresh"
+    assert run("gate", unstable, "--budgets", fresh, "--update")[0] == 0
+    code, printed, _ = run("gate", unstable, "--budgets", fresh)
+    assert code == 1 and "beyond their condition, furthest bodies 0-1" in printed
+
+
+def test_a_composition_method_has_no_ledger():
+    words = "scene run pendulum3 --integrator yoshida6 --steps 5 --collisions".split()
+    code, _, err = run(*words)
+    assert code == 2 and "--integrator 'yoshida6'" in err and "--collisions" in err

@@ -110,6 +110,12 @@ void add_checkpoint_options(CLI::App& verb, SceneOptions& o, CLI::Option* out) {
       ->needs(out);
 }
 
+void add_collisions_option(CLI::App& verb, SceneOptions& o) {
+  verb.add_flag("--collisions", o.scene.collisions,
+                "keep a ledger of every collision: restitution, duration, energy made; with --out "
+                "collisions.jsonl");
+}
+
 void add_json_option(CLI::App& verb, SceneOptions& o) {
   verb.add_flag("--json", o.json, "print the records instead of text");
 }

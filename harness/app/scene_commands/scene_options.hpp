@@ -47,6 +47,8 @@ void add_record_options(CLI::App& verb, SceneOptions& o, CLI::Option* out, const
 CLI::Option* add_overwrite_option(CLI::App& verb, SceneOptions& o, CLI::Option* out);
 // --resume or --overwrite, --checkpoint-seconds
 void add_checkpoint_options(CLI::App& verb, SceneOptions& o, CLI::Option* out);
+// --collisions
+void add_collisions_option(CLI::App& verb, SceneOptions& o);
 // --json
 void add_json_option(CLI::App& verb, SceneOptions& o);
 

@@ -130,6 +130,9 @@ SceneJob make_job(const SceneRequest& request) {
   job.threads = request.threads;
   job.all_parts = request.all_parts;
   job.allow_large = request.allow_large;
+  job.collisions = request.collisions;
+  if (job.collisions && job.integrator != leapfrog)
+    throw refused("--integrator", job.integrator, "takes scenes of bonds alone, which have no --collisions");
   const std::string integrator = job.integrator == leapfrog ? "" : "integrator " + job.integrator + "\n";
   job.plan_text = fmt::format("ulpgate scene plan\n{}steps {}\nscene {:016x}\n{}\n", integrator, job.steps,
                               fnv1a(job.loaded.text), job.loaded.text);
@@ -167,8 +170,9 @@ void check_job(const SceneJob& job, const std::vector<std::string>& types) {
 std::unique_ptr<dem::DemEngine> engine_of(const std::string& token, dem::Level level, const SceneJob& job) {
   std::unique_ptr<dem::DemEngine> engine;
   try {
-    engine = dem::make_engine(token, level, job.loaded.scene,
-                              {job.all_parts, job.threads, job.allow_large, &Heartbeat::mine().steps()});
+    engine = dem::make_engine(
+        token, level, job.loaded.scene,
+        {job.all_parts, job.threads, job.allow_large, &Heartbeat::mine().steps(), job.collisions});
   } catch (const scenes::SceneFault& fault) {
     const std::string type = level == dem::Level::own ? token : "RealHP<4> of " + token;
     throw scene_failure(fmt::format("{} in {}", job.loaded.scene.name, type), fault);

@@ -24,8 +24,9 @@ struct SceneRequest {
   std::optional<std::string> steps;      // instead of until
   std::optional<std::string> snapshots;  // s, comma-separated expressions
   int threads = 1;
-  bool all_parts = false;  // nothing is left out
-  bool energy = false;     // the energy account is kept, whatever the scene says
+  bool all_parts = false;   // nothing is left out
+  bool energy = false;      // the energy account is kept, whatever the scene says
+  bool collisions = false;  // a ledger of collisions is kept
   // More memory, steps or records than a run takes without being asked.
   bool allow_large = false;
 };
@@ -40,6 +41,7 @@ struct SceneJob {
   int threads = 1;
   bool all_parts = false;
   bool allow_large = false;
+  bool collisions = false;  // a ledger of them is kept; no part of the plan, whose trajectory is the same
   std::string plan_text;
   std::string plan;
 };

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "harness/core/arguments/random_words.hpp"
+#include "reference/text/text.hpp"
 
 namespace ulpgate::app {
 
@@ -156,6 +158,128 @@ Json energy_json(const dem::DemEngine& engine) {
   Json j;
   for (const auto& name : names) j[name] = engine.energy(name);
   return j;
+}
+
+namespace {
+
+// What does not exist is no number.
+Json number_json(double x) {
+  if (std::isnan(x)) return nullptr;
+  return std::isinf(x) ? Json(x > 0 ? "inf" : "-inf") : Json(x);
+}
+
+Json place_json(const CollisionPlace& p, bool exists) {
+  return exists ? Json::array({p.first, p.second, p.begin_step}) : Json(nullptr);
+}
+
+}  // namespace
+
+Json collision_json(const dem::CollisionRecord& r) {
+  Json j;
+  j["first"] = r.first;
+  j["second"] = r.second;
+  j["open"] = r.open;
+  j["begin_step"] = r.begin_step;
+  j["end_step"] = r.end_step;
+  j["steps_inside"] = r.steps_inside;
+  const std::pair<const char*, double> numbers[] = {
+      {"begin_s", r.begin_s},
+      {"end_s", r.end_s},
+      {"duration_s", r.duration_s},
+      {"normal_velocity_before", r.normal_velocity_before},
+      {"normal_velocity_after", r.normal_velocity_after},
+      {"restitution", r.restitution},
+      {"largest_overlap_m", r.largest_overlap_m},
+      {"energy_before_J", r.energy_before},
+      {"energy_after_J", r.energy_after},
+      {"energy_gained_J", r.energy_gained},
+      {"energy_created", r.energy_created},
+      {"omega_dt", r.omega_dt},
+      {"condition", r.open ? dem::CollisionRecord::none : r.condition},
+      {"rounding_bound_J", r.open ? dem::CollisionRecord::none : r.rounding_bound},
+      {"step_bound_J", r.open ? dem::CollisionRecord::none : r.step_bound},
+      {"law_bound_J", r.open ? dem::CollisionRecord::none : r.law_bound}};
+  for (const auto& [name, value] : numbers) j[name] = number_json(value);
+  j["beyond_condition"] = r.beyond_condition;
+  return j;
+}
+
+Json ledger_json(const CollisionSummary& s, std::uint64_t rows) {
+  Json j;
+  j["rows"] = rows;
+  j["ended"] = s.ended;
+  j["still_open"] = s.open;
+  j["creating"] = s.creating;
+  j["beyond"] = s.beyond;
+  j["largest_created"] = number_json(s.largest_created);
+  j["largest_created_at"] = place_json(s.largest_at, s.largest_created > 0);
+  j["largest_part_of_bound"] = number_json(s.largest_part_of_bound);
+  j["largest_part_of_bound_at"] = place_json(s.nearest_at, s.largest_part_of_bound > 0);
+  j["mean_restitution"] = number_json(s.mean_restitution());
+  j["shortest_steps"] = s.shortest;
+  j["largest_omega_dt"] = number_json(s.largest_omega_dt);
+  return j;
+}
+
+namespace {
+
+// The numbers of the totals, by one list for writing and for reading.
+template <class Summary, class Visit>
+void each_number(Summary& s, Visit visit) {
+  for (auto* n : {&s.ended, &s.open, &s.creating, &s.beyond, &s.restitutions, &s.shortest,
+                  &s.largest_at.begin_step, &s.nearest_at.begin_step}) {
+    visit(*n);
+  }
+  for (auto* n : {&s.largest_at.first, &s.largest_at.second, &s.nearest_at.first, &s.nearest_at.second})
+    visit(*n);
+  for (auto* x : {&s.largest_created, &s.largest_part_of_bound, &s.restitution_sum, &s.largest_omega_dt})
+    visit(*x);
+}
+
+}  // namespace
+
+Json state_json(const CollisionSummary& s) {
+  Json j = Json::array();
+  each_number(s, [&](const auto& x) {
+    if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(x)>>) {
+      j.push_back(to_hexfloat(x));
+    } else {
+      j.push_back(x);
+    }
+  });
+  return j;
+}
+
+CollisionSummary summary_of(const Json& state) {
+  CollisionSummary s;
+  std::size_t at = 0;
+  each_number(s, [&](auto& x) {
+    using Number = std::remove_cvref_t<decltype(x)>;
+    const Json& j = state.at(at++);
+    if constexpr (std::is_floating_point_v<Number>) {
+      x = std::strtod(j.get<std::string>().c_str(), nullptr);
+    } else {
+      x = j.get<Number>();
+    }
+  });
+  return s;
+}
+
+std::string summary_text(const CollisionSummary& s) {
+  if (s.ended == 0) return fmt::format("  collisions: none ended, {} open\n", s.open);
+  const auto at = [](const CollisionPlace& p) {
+    return fmt::format("bodies {}-{} from step {}", p.first, p.second, p.begin_step);
+  };
+  std::string text = fmt::format(
+      "  collisions: {} ended, {} open; mean restitution {:.6g}, shortest {} steps, largest omega dt "
+      "{:.3g}\n",
+      s.ended, s.open, s.mean_restitution(), s.shortest, s.largest_omega_dt);
+  text += fmt::format("    {} made energy, {} beyond their condition", s.creating, s.beyond);
+  if (s.largest_created > 0)
+    text += fmt::format("; at most {:.3e} of the pair's ({})", s.largest_created, at(s.largest_at));
+  if (s.largest_part_of_bound > 0)
+    text += fmt::format("; {:.3g} of what it may ({})", s.largest_part_of_bound, at(s.nearest_at));
+  return text + "\n";
 }
 
 }  // namespace ulpgate::app

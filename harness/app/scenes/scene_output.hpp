@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/app/store/records.hpp"
+#include "harness/core/collisions/collision_summary.hpp"
 #include "harness/core/scenes/scene_compare.hpp"
 
 namespace ulpgate::app {
@@ -25,5 +26,15 @@ namespace ulpgate::app {
 [[nodiscard]] std::string pair_names(const std::vector<dem::BodyPair>& pairs);
 // The energy account as an object (names of DemEngine::energy_names, J), null where none is kept.
 [[nodiscard]] Json energy_json(const dem::DemEngine& engine);
+
+inline constexpr const char* collision_records_file = "collisions.jsonl";
+// A line of collisions.jsonl of each collision, and of all that a run had.
+[[nodiscard]] Json collision_json(const dem::CollisionRecord& r);
+[[nodiscard]] Json ledger_json(const CollisionSummary& s, std::uint64_t rows);
+// The totals as they are held in a checkpoint: every number comes back as it was.
+[[nodiscard]] Json state_json(const CollisionSummary& s);
+[[nodiscard]] CollisionSummary summary_of(const Json& state);
+// "4 collisions ended, 0 are open ...", two lines.
+[[nodiscard]] std::string summary_text(const CollisionSummary& s);
 
 }  // namespace ulpgate::app

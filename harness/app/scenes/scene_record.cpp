@@ -23,6 +23,10 @@ using Quantity = dem::BodyQuantity;
 constexpr const char* checkpoint_directory = "checkpoints";
 constexpr int checkpoint_version = 2;
 
+std::filesystem::path ledger_file(const std::filesystem::path& out, const std::string& stem) {
+  return out / checkpoint_directory / (stem + ".collisions");
+}
+
 std::uint64_t checksum(const Json& j) {
   return fnv1a(j.dump());
 }
@@ -123,6 +127,9 @@ void SceneRecorder::begin() {
   if (out_.empty()) return;
   if (plan_.series) start(series_, "series", header_);
   if (plan_.trajectory) start(trajectory_, "trajectory", trajectory_header_);
+  if (plan_.collisions_of.is_null()) return;
+  make_directory(out_ / checkpoint_directory);
+  ledger_.begin(ledger_file(out_, plan_.stem));
 }
 
 void SceneRecorder::note_start(const dem::DemEngine& engine) {
@@ -160,6 +167,37 @@ void SceneRecorder::add(const dem::DemEngine& engine) {
   const auto mean = mean_position(engine);
   series_.append(row + fmt::format(",{},{},{}\n", mean[0], mean[1], mean[2]));
   if (trajectory_.is_open()) trajectory_.append(trajectory_row(engine));
+}
+
+void SceneRecorder::add_collision(const dem::CollisionRecord& record) {
+  collisions_.add(record);
+  if (collision_rows_ == most_collision_rows) return;
+  ++collision_rows_;
+  if (!ledger_.is_open()) return;
+  Json row = {{"what", "collision"}};
+  row.update(plan_.collisions_of);
+  row.update(collision_json(record));
+  row["plan"] = plan_.plan;
+  ledger_.append(row.dump() + "\n");
+}
+
+void SceneRecorder::add_collisions(dem::DemEngine& engine) {
+  for (const auto& record : engine.take_collisions()) add_collision(record);
+}
+
+void SceneRecorder::end_collisions(const dem::DemEngine& engine) {
+  if (plan_.collisions_of.is_null()) return;
+  for (const auto& record : engine.open_collisions()) add_collision(record);
+  if (!ledger_.is_open()) return;
+  Json row = {{"what", "ledger"}};
+  row.update(plan_.collisions_of);
+  row.update(ledger_json(collisions_, collision_rows_));
+  row["plan"] = plan_.plan;
+  ledger_.append(row.dump() + "\n");
+}
+
+std::string collision_lines_of(const std::filesystem::path& out, const std::string& stem) {
+  return read_file(ledger_file(out, stem));
 }
 
 void SceneRecorder::replay(const std::string& series) {
@@ -218,6 +256,10 @@ void SceneRecorder::checkpoint(dem::DemEngine& engine) {
             {"series", json_of(series_.sync())},
             {"trajectory", json_of(trajectory_.sync())},
             {"state", engine.save()}};
+  if (ledger_.is_open()) {
+    j["collisions"] = {
+        {"file", json_of(ledger_.sync())}, {"rows", collision_rows_}, {"totals", state_json(collisions_)}};
+  }
   j["checksum"] = checksum(j);
   make_directory(out_ / checkpoint_directory);
   write_file(checkpoint_file(), j.dump() + "\n");
@@ -227,6 +269,7 @@ void SceneRecorder::checkpoint(dem::DemEngine& engine) {
 void SceneRecorder::close() {
   series_.sync();
   trajectory_.sync();
+  ledger_.sync();
 }
 
 bool SceneRecorder::resume(dem::DemEngine& engine) {
@@ -242,12 +285,20 @@ bool SceneRecorder::resume(dem::DemEngine& engine) {
   if (checksum(j) != claimed) throw refuse("its checksum does not fit: it was changed");
   if (j["ulpgate_checkpoint"] != checkpoint_version) throw refuse("made by another version of ulpgate");
   if (j["plan"] != plan_.plan) throw refuse("made by another plan (scene, step, steps or records differ)");
+  if (j.contains("collisions") == plan_.collisions_of.is_null())
+    throw refuse(j.contains("collisions") ? "made with --collisions" : "made without --collisions");
   const auto go_on = [&](VouchedFile& file, const char* directory) {
     make_directory(out_ / directory);
     file.go_on(out_ / directory / (plan_.stem + ".csv"), vouched_of(j[directory]));
   };
   if (plan_.series) go_on(series_, "series");
   if (plan_.trajectory) go_on(trajectory_, "trajectory");
+  if (j.contains("collisions")) {
+    const Json& kept = j["collisions"];
+    ledger_.go_on(ledger_file(out_, plan_.stem), vouched_of(kept.at("file")));
+    collision_rows_ = kept.at("rows").get<std::uint64_t>();
+    collisions_ = summary_of(kept.at("totals"));
+  }
   // The first step gives the account that later ones are held against.
   if (!energy_names_.empty()) {
     engine.step(1);

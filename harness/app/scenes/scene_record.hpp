@@ -9,6 +9,8 @@
 
 #include "harness/app/scenes/scene_job.hpp"
 #include "harness/app/scenes/vouched_file.hpp"
+#include "harness/app/store/records.hpp"
+#include "harness/core/collisions/collision_summary.hpp"
 #include "harness/core/scenes/energy_drift.hpp"
 #include "kernels/dem/engine/engine.hpp"
 #include "reference/types/mpfr_value.hpp"
@@ -26,6 +28,8 @@ struct RecordPlan {
   int digits = 17;           // decimal digits that identify a number of the type
   int bits = 53;             // of the type
   double checkpoint_s = 30;  // between checkpoints
+  // Where a ledger of collisions is kept: what its rows begin with, scene, type, dt ...; else null.
+  Json collisions_of;
 };
 
 // What is known of a run from the rows of its series.
@@ -55,6 +59,10 @@ class SceneRecorder {
   // Opens the files of a run from the start.
   void begin();
   void add(const dem::DemEngine& engine);
+  // Those that have ended since the last call; nothing where no ledger is kept.
+  void add_collisions(dem::DemEngine& engine);
+  // Those that the end of the run leaves open, and the totals; behind the last checkpoint.
+  void end_collisions(const dem::DemEngine& engine);
   [[nodiscard]] bool checkpoint_is_due() const;
   // Everything recorded so far is on disk before the checkpoint names it.
   void checkpoint(dem::DemEngine& engine);
@@ -62,6 +70,7 @@ class SceneRecorder {
   void close();
 
   [[nodiscard]] const SceneStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] const CollisionSummary& collisions() const { return collisions_; }
 
  private:
   [[nodiscard]] std::string header(const dem::DemEngine& engine) const;
@@ -70,16 +79,24 @@ class SceneRecorder {
   void note_start(const dem::DemEngine& engine);
   void replay(const std::string& series);
   [[nodiscard]] std::filesystem::path checkpoint_file() const;
+  void add_collision(const dem::CollisionRecord& record);
 
   std::filesystem::path out_;
   RecordPlan plan_;
   std::vector<std::string> energy_names_;
   std::string header_, trajectory_header_;
-  VouchedFile series_, trajectory_;
+  VouchedFile series_, trajectory_, ledger_;
+  CollisionSummary collisions_;
+  std::uint64_t collision_rows_ = 0;
   std::optional<MpfrValue> start_sum_, start_raw_;
   SceneStatistics statistics_;
   std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();
 };
+
+// Rows of a ledger in a file, of each run; the totals count all collisions.
+inline constexpr std::uint64_t most_collision_rows = 20'000;
+// The lines that the run of this stem left, of a run that is complete.
+[[nodiscard]] std::string collision_lines_of(const std::filesystem::path& out, const std::string& stem);
 
 // Of a run that is complete.
 void remove_checkpoints(const std::filesystem::path& out);

@@ -32,6 +32,15 @@ void write_picture(const RecordRequest& records, const std::string& stem, const 
   }
 }
 
+// What tells the runs of one plan apart.
+Json collisions_of(const std::string& token, const SceneJob& job) {
+  return {{"scene", job.loaded.scene.name},
+          {"type", token},
+          {"integrator", job.integrator},
+          {"dt", job.loaded.scene.dt},
+          {"variant", job.variant}};
+}
+
 RecordPlan record_plan(const RunRequest& request, const SceneJob& job, const RecordRequest& records) {
   const FloatFormat& format = type_or_fail(request.token).format;
   RecordPlan plan;
@@ -46,6 +55,7 @@ RecordPlan record_plan(const RunRequest& request, const SceneJob& job, const Rec
   // Decimal digits that tell any two numbers of that many bits apart: ceil(1 + bits log10(2)).
   plan.digits = 2 + plan.bits * 30103 / 100000;
   plan.checkpoint_s = records.checkpoint_s;
+  if (job.collisions) plan.collisions_of = collisions_of(request.token, job);
   return plan;
 }
 
@@ -117,6 +127,7 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Rec
     if (reference) take_steps(*reference, until - now, job);
     look();
     if (run.diverged) break;
+    recorder.add_collisions(engine);
     if (until == 1 || until == job.steps || (job.record_every != 0 && until % job.record_every == 0))
       recorder.add(engine);
     if (next_compare != compare_at.end() && until == *next_compare) {
@@ -132,8 +143,10 @@ FinishedRun run_to_end(const RunRequest& request, const SceneJob& job, const Rec
     write_picture(records, request.stem, engine);
   // Also of a run that is complete: others of the same command may not be.
   if (!reference && !run.diverged) recorder.checkpoint(engine);
+  if (run.complete) recorder.end_collisions(engine);
   recorder.close();
   run.statistics = recorder.statistics();
+  run.collisions = recorder.collisions();
   return run;
 }
 

@@ -40,6 +40,7 @@ struct RunRequest {
 struct FinishedRun {
   std::unique_ptr<dem::DemEngine> engine;
   SceneStatistics statistics;
+  CollisionSummary collisions;  // where the job keeps a ledger
   std::vector<Divergence> divergence;
   // Where the state stopped being finite, which ends the run: "collision in float: diverged at step 12: ...".
   std::optional<std::string> diverged;

@@ -20,14 +20,17 @@ namespace {
 // Every run of the whole plan.
 constexpr const char* whole = "0/1";
 // Whatever a verb writes into its directory.
-constexpr const char* records_files[] = {math_records_file,   kernel_records_file,    scene_records_file,
-                                         "correlation.jsonl", "orders.jsonl",         "drift.jsonl",
-                                         "stress.jsonl",      "work_precision.jsonl", "collisions.jsonl"};
+constexpr const char* records_files[] = {math_records_file,  kernel_records_file,
+                                         scene_records_file, "correlation.jsonl",
+                                         "orders.jsonl",     "drift.jsonl",
+                                         "stress.jsonl",     "work_precision.jsonl",
+                                         "collisions.jsonl", "work_precision_fits.jsonl"};
 constexpr const char* other_entries[] = {"timing.jsonl", "work_precision_timing.jsonl",
-                                         "units",        "checkpoints",
-                                         "series",       "trajectory",
-                                         "snapshots",    "vtk",
-                                         "contacts",     "correlation"};
+                                         "advice.json",  "units",
+                                         "checkpoints",  "series",
+                                         "trajectory",   "snapshots",
+                                         "vtk",          "contacts",
+                                         "correlation"};
 
 Json json_of(const RunIdentity& identity) {
   return {{"format", 2},

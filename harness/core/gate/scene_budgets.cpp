@@ -22,11 +22,14 @@ struct EnergyColumn {
   const char* name;
   Value value;
   Limit limit;
+  const char* unit;
 };
 constexpr EnergyColumn energy_columns[] = {
-    {"energy error", &SceneMeasurement::max_energy_error, &SceneBudget::max_energy_error},
+    {"energy error", &SceneMeasurement::max_energy_error, &SceneBudget::max_energy_error, "J"},
     {"energy error with half-step velocities", &SceneMeasurement::max_energy_error_raw,
-     &SceneBudget::max_energy_error_raw}};
+     &SceneBudget::max_energy_error_raw, "J"},
+    {"energy made in a collision", &SceneMeasurement::energy_created, &SceneBudget::max_energy_created,
+     "of the pair's"}};
 
 void judge_one(const SceneMeasurement& m, const SceneBudget& budget, std::vector<GateFinding>& findings) {
   const auto add = [&](double severity, const std::string& message) {
@@ -41,7 +44,9 @@ void judge_one(const SceneMeasurement& m, const SceneBudget& budget, std::vector
                         0,
                         {m.reproduce}});
   };
-  if (!budget.t_s && !budget.max_energy_error && !budget.max_energy_error_raw) {
+  const bool limits_energy =
+      std::ranges::any_of(energy_columns, [&](const auto& c) { return (budget.*c.limit).has_value(); });
+  if (!budget.t_s && !limits_energy) {
     findings.push_back({FindingKind::missing_budget,
                         m.type,
                         m.scene + " " + m.run,
@@ -65,7 +70,7 @@ void judge_one(const SceneMeasurement& m, const SceneBudget& budget, std::vector
     } else if (const double error = *(m.*column.value);
                !(error >= 0) || at_most(error, limit) != Standing::pass) {
       add(std::isnan(error) ? HUGE_VAL : error / std::max(limit, 1e-300),
-          fmt::format("{} {:.4g} J, budget {:.4g} J", column.name, error, limit));
+          fmt::format("{} {:.4g} {}, budget {:.4g} {}", column.name, error, column.unit, limit, column.unit));
     }
   }
 }
@@ -80,6 +85,15 @@ std::vector<GateFinding> judge_scenes(const std::vector<SceneMeasurement>& measu
                                       const SceneBudgets& budgets, MissingRecords missing) {
   std::vector<GateFinding> findings;
   for (const auto& m : measured) {
+    if (m.collisions_beyond > 0) {
+      findings.push_back({FindingKind::regression,
+                          m.type,
+                          m.scene + " " + m.run,
+                          fmt::format("{} collisions make energy beyond their condition, furthest {}",
+                                      m.collisions_beyond, m.furthest_beyond),
+                          HUGE_VAL,
+                          {m.reproduce}});
+    }
     const auto scene = budgets.find(m.scene);
     const SceneBudget* budget = nullptr;
     if (scene != budgets.end()) {

@@ -54,6 +54,33 @@ TEST(SceneBudgets, MissingRunsBudgetsAndColumns) {
   EXPECT_EQ(incomplete[0].kind, FindingKind::incomplete);
 }
 
+TEST(SceneBudgets, NoCollisionMayMakeEnergyBeyondItsConditionWhateverTheBudget) {
+  auto m = run_of_double(2.45, 5e-14);
+  m.energy_created = 4e-9;
+  const auto budgets = budgets_of(m);
+  EXPECT_TRUE(judge_scenes({m}, budgets, MissingRecords::fail).empty());
+  auto more = m;
+  more.energy_created = 5e-9;
+  const auto regressed = judge_scenes({more}, budgets, MissingRecords::fail);
+  ASSERT_EQ(regressed.size(), 1U);
+  EXPECT_EQ(regressed[0].message,
+            "energy made in a collision 5e-09 of the pair's, budget 4.41e-09 of the pair's");
+  auto beyond = m;
+  beyond.collisions_beyond = 2;
+  beyond.furthest_beyond = "bodies 0-1 from step 7";
+  const auto found = judge_scenes({beyond}, budgets, MissingRecords::fail);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, FindingKind::regression);
+  EXPECT_EQ(found[0].message,
+            "2 collisions make energy beyond their condition, furthest bodies 0-1 from step 7");
+  EXPECT_EQ(judge_scenes({beyond}, {}, MissingRecords::fail).size(), 2U) << "and no budget";
+  auto unmeasured = m;
+  unmeasured.energy_created.reset();
+  const auto absent = judge_scenes({unmeasured}, budgets, MissingRecords::fail);
+  ASSERT_EQ(absent.size(), 1U);
+  EXPECT_EQ(absent[0].kind, FindingKind::incomplete);
+}
+
 TEST(SceneBudgets, LooserOnlyWithAReason) {
   auto budgets = budgets_of(run_of_double(2.45, 5e-14));
   const auto before = budgets;

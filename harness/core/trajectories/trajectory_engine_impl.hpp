@@ -68,7 +68,7 @@ class TrajectoryEngineOf final : public TrajectoryEngine {
     }
     steps.push_back(from_mpfr<Real>(left.backend().data()));
     // Exact where the parts are a power of two.
-    for (Real& h : steps) h /= parts;
+    for (Real& h : steps) h /= static_cast<Real>(parts);
     const auto count = static_cast<std::uint64_t>(parts);
     return run(
         problem, integrator, steps.size() * count, [&](std::uint64_t i) { return steps[i / count]; }, options,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernels/dem/step/broad_phase.hpp"
+#include "kernels/dem/step/collision_record.hpp"
 #include "kernels/dem/step/parts.hpp"
 #include "kernels/scenes/reader/scene.hpp"
 #include "reference/types/mpfr_value.hpp"
@@ -21,10 +22,13 @@ struct EngineOptions {
   bool all_parts = false;  // nothing is left out; the trajectory is the same to the last bit
   int threads = 1;
   bool allow_large = false;  // more memory than scenes::most_bytes
-  // Counted up while a call of step() is under way, by whichever thread gets on: after every 4096 pairs of
-  // bodies at most, and before and behind the motion of all bodies.  A rebuild of the list of pairs is not
-  // counted within.  Null where nobody looks.
+  // Counted up while a call of step() is under way, by whichever thread gets on: after 4096 pairs and bodies
+  // at most, those of several steps together where they are few, and at the end of a call.  Neither
+  // the motion of all bodies nor a rebuild of the list of pairs is counted within.  Null where nobody looks.
   std::atomic<std::uint64_t>* progress = nullptr;
+  // Keeps a ledger of every collision.  The trajectory is the same to the last bit; without it a step costs
+  // nothing more.
+  bool collisions = false;
 };
 
 // Which of RealHP<1> and RealHP<4> of a token's type.
@@ -119,9 +123,15 @@ class DemEngine {
   [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
   [[nodiscard]] virtual std::size_t collider_rebuilds() const = 0;
 
-  // The whole state as exact text.  Restored into the same scene and type, also with other threads, a run
-  // continues with the same bits.  A higher precision may restore the text of a lower one: every value is
-  // widened.
+  // Collisions that have ended since the last call, by their last step, then by pair; none where no ledger is
+  // kept.  The state holds those that were not taken.
+  [[nodiscard]] virtual std::vector<CollisionRecord> take_collisions() = 0;
+  // Those that have begun and not ended, by pair.
+  [[nodiscard]] virtual std::vector<CollisionRecord> open_collisions() const = 0;
+
+  // The whole state as exact text, with the ledger of collisions where one is kept.  Restored into the same
+  // scene and type, also with other threads, a run continues with the same bits.  A higher precision may
+  // restore the text of a lower one: every value is widened.
   [[nodiscard]] virtual std::string save() = 0;
   // Throws ArchiveError (archive.hpp) where `state` is not one of this scene; the engine is then unusable.
   virtual void restore(std::string_view state, Constants constants) = 0;

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "kernels/dem/engine/engine.hpp"
-#include "kernels/dem/formulas/critical_step.hpp"
 #include "kernels/dem/step/simulation.hpp"
+#include "kernels/dem/step/stiffness_limit.hpp"
 
 namespace ulpgate::dem {
 
@@ -15,7 +15,8 @@ class TypedEngine final : public DemEngine {
  public:
   TypedEngine(std::string type_name, const scenes::Scene& scene, const EngineOptions& options)
       : type_name_(std::move(type_name)),
-        simulation_(scene, {options.all_parts, options.threads, options.allow_large, options.progress}) {}
+        simulation_(scene, {options.all_parts, options.threads, options.allow_large, options.progress,
+                            options.collisions}) {}
 
   [[nodiscard]] std::string type_name() const override { return type_name_; }
   void step(std::uint64_t count) override { simulation_.step(count); }
@@ -95,7 +96,7 @@ class TypedEngine final : public DemEngine {
   void kinetic_energy_exact(mpfr_ptr out) const override { to_mpfr(out, kinetic_sum()); }
 
   [[nodiscard]] double critical_step(std::string_view name) const override {
-    if (name == "stiffness") return static_cast<double>(stiffness_limit());
+    if (name == "stiffness") return static_cast<double>(stiffness_limit(s()));
     const Bodies<Real>& b = s().bodies;
     Real least{0};
     for (std::size_t i = 0; i < b.size(); ++i) {
@@ -131,6 +132,12 @@ class TypedEngine final : public DemEngine {
   [[nodiscard]] const Parts& explain() const override { return simulation_.parts(); }
   [[nodiscard]] std::size_t memory_bytes() const override { return simulation_.memory(); }
   [[nodiscard]] std::size_t collider_rebuilds() const override { return simulation_.rebuilds(); }
+  [[nodiscard]] std::vector<CollisionRecord> take_collisions() override {
+    return simulation_.take_collisions();
+  }
+  [[nodiscard]] std::vector<CollisionRecord> open_collisions() const override {
+    return simulation_.open_collisions();
+  }
   [[nodiscard]] std::string save() override { return simulation_.save(); }
   void restore(std::string_view state, Constants constants) override {
     simulation_.restore(state, constants == Constants::from_text);
@@ -179,41 +186,6 @@ class TypedEngine final : public DemEngine {
       if (s().parts.rotation) sum += rotational_energy(b.inertia[i], b.angular_velocity[i]);
     }
     return sum;
-  }
-
-  // From the touching contacts; 0 where none limits the step.
-  [[nodiscard]] Real stiffness_limit() const {
-    const Bodies<Real>& b = s().bodies;
-    const Contacts<Real>& c = s().contacts;
-    std::vector<Vec3<Real>> k(b.size());
-    std::vector<Vec3<Real>> k_rotation(b.size());
-    for (std::size_t p = 0; p < c.size(); ++p) {
-      if (c.touching[p] == 0) continue;
-      const auto i = static_cast<std::size_t>(c.pair[p].first);
-      const auto j = static_cast<std::size_t>(c.pair[p].second);
-      const Real ks = s().parts.shear ? c.ks[p] : Real(0);
-      Vec3<Real> n = b.position[j] - b.position[i];
-      if (s().parts.shear) {
-        n = c.normal[p];
-      } else {
-        n = n / norm(n);
-      }
-      const Vec3<Real> share = axis_stiffness(c.kn[p], ks, n);
-      for (const std::size_t body : {i, j}) {
-        k[body] += share;
-        if (s().parts.rotation) k_rotation[body] += axis_rotation_stiffness(ks, b.radius[body], n);
-      }
-    }
-    Real least{0};
-    const auto take = [&](const Real& step) {
-      if (step > 0 && (least == 0 || step < least)) least = step;
-    };
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      if (b.fixed[i] != 0) continue;
-      take(stiffness_step(b.mass[i], k[i]));
-      if (s().parts.rotation) take(stiffness_step(b.inertia[i], k_rotation[i]));
-    }
-    return least;
   }
 
   std::string type_name_;

@@ -110,9 +110,16 @@ TEST(Engine, TellsThatItGetsOnAndKeepsTheBits) {
   // Bonds alone: three of them, 4096/(3 + 1) steps at once.
   EXPECT_EQ(counted("pendulum3", 1, 10000), 10U);
   EXPECT_EQ(counted("pendulum3", 1, 1), 1U);
-  // Before, between and after the passes over contacts and bodies; its contacts are fewer than 4096.
-  EXPECT_EQ(counted("cradle", 1, 50), 150U);
-  EXPECT_EQ(counted("cradle", 2, 50), 150U);
+  // Two bodies, and one pair once the first steps have found it: 4096/(2 + 1) = 1365 steps, then 1024 at
+  // once.
+  EXPECT_EQ(counted("rolling", 1, 1365 + 3 * 1024 + 1), 5U);
+  EXPECT_EQ(counted("rolling", 2, 1365 + 3 * 1024), 4U);
+  EXPECT_EQ(counted("rolling", 1, 1), 1U);
+  // More than 4096 bodies count in every step.
+  std::atomic<std::uint64_t> progress{0};
+  auto large = engine(load("deposition"), {false, 2, false, &progress});
+  large->step(3);
+  EXPECT_GE(progress.load(), 3U);
 }
 
 TEST(Engine, EveryTypeKeepsBitsWithPartsAndThreads) {

@@ -50,4 +50,41 @@ template <RealType Real>
   return 4 * sqrt(2 * inertia / largest) / 5;
 }
 
+// A symmetric matrix of three rows, as the sum of springs.
+template <RealType Real>
+struct SymmetricMatrix {
+  Real xx{0}, yy{0}, zz{0}, xy{0}, yz{0}, zx{0};
+
+  // += along n n^T + across (1 - n n^T), n of length 1.
+  void add_spring(const Real& along, const Real& across, const Vec3<Real>& n) {
+    const Real difference = along - across;
+    xx += difference * (n.x * n.x) + across;
+    yy += difference * (n.y * n.y) + across;
+    zz += difference * (n.z * n.z) + across;
+    xy += difference * (n.x * n.y);
+    yz += difference * (n.y * n.z);
+    zx += difference * (n.z * n.x);
+  }
+};
+
+// Of a symmetric matrix, by the closed form of O. K. Smith, Commun. ACM 4 (1961) 168; absolute error of a few
+// roundings of the largest entry.
+template <RealType Real>
+[[nodiscard]] Real largest_eigenvalue(const SymmetricMatrix<Real>& m) {
+  using std::acos, std::cos, std::sqrt;
+  const Real mean = (m.xx + m.yy + m.zz) / 3;
+  const Real dx = m.xx - mean;
+  const Real dy = m.yy - mean;
+  const Real dz = m.zz - mean;
+  const Real off = m.xy * m.xy + m.yz * m.yz + m.zx * m.zx;
+  const Real p = sqrt((dx * dx + dy * dy + dz * dz + 2 * off) / 6);
+  if (!(p > 0)) return mean;
+  const Real determinant =
+      dx * (dy * dz - m.yz * m.yz) - m.xy * (m.xy * dz - m.yz * m.zx) + m.zx * (m.xy * m.yz - dy * m.zx);
+  Real half = determinant / (2 * p * p * p);
+  if (half > 1) half = Real(1);
+  if (half < -1) half = Real(-1);
+  return mean + 2 * p * cos(acos(half) / 3);
+}
+
 }  // namespace ulpgate::dem

@@ -14,7 +14,8 @@ template <RealType Real>
 // one that slows down, judged by the velocity half a step on.  lambda in [0, 1).
 template <RealType Real>
 [[nodiscard]] Real damped(const Real& a, const Real& v, const Real& dt, const Real& lambda) {
-  const int sign = sign_of(Real(a * (v + dt * a / 2)));
+  // Of the factors, whose product may underflow.
+  const int sign = sign_of(a) * sign_of(Real(v + dt * a / 2));
   if (sign == 0) return a;
   return a * (sign > 0 ? 1 - lambda : 1 + lambda);
 }

@@ -50,9 +50,10 @@ class Collider {
     }
     if (reference_.empty()) return false;
     const auto& from = reference_[i];
-    const double dx = x - from[0];
-    const double dy = y - from[1];
-    const double dz = z - from[2];
+    // In units of the sweep's binade: exact, and no square is 0 or infinite where the distances are not.
+    const double dx = (x - from[0]) * unit_;
+    const double dy = (y - from[1]) * unit_;
+    const double dz = (z - from[2]) * unit_;
     return dx * dx + dy * dy + dz * dz > limit2_;
   }
 
@@ -115,7 +116,8 @@ class Collider {
     ++rebuilds_;
     const auto sweep = static_cast<double>(s.sweep);
     // A hair less than the sweep, for the rounding of the distance itself.
-    limit2_ = sweep * sweep * 0.999;
+    unit_ = sweep > 0 && std::isfinite(sweep) ? std::ldexp(1.0, std::min(1000, -std::ilogb(sweep))) : 1;
+    limit2_ = (sweep * unit_) * (sweep * unit_) * 0.999;
     if (s.parts.collider) {
       boxes_.resize(count);
       reference_.resize(count);
@@ -217,7 +219,8 @@ class Collider {
   std::vector<BodyPair> pairs_, merged_;
   std::vector<std::int32_t> start_, entries_;
   std::size_t most_pairs_ = scenes::most_pairs;
-  double limit2_ = 0;
+  double unit_ = 1;    // 1/m, a power of two
+  double limit2_ = 0;  // of the squared distance in that unit
   bool started_ = false;
   bool outdated_ = true;
   std::size_t rebuilds_ = 0;

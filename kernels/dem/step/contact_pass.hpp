@@ -14,6 +14,19 @@ struct PairForce {
   Vec3<Real> torque1, torque2;
 };
 
+// Of a flat body i1 and a sphere i2.
+template <RealType Real>
+[[nodiscard]] ContactGeometry<Real> flat_contact(const Bodies<Real>& bodies,
+                                                 const std::vector<Flat<Real>>& flats, std::size_t i1,
+                                                 std::size_t i2) {
+  const Flat<Real>& f = flats[static_cast<std::size_t>(bodies.flat[i1])];
+  const Vec3<Real>& x = bodies.position[i2];
+  const Real& r = bodies.radius[i2];
+  if (bodies.shape[i1] == Shape::facet) return facet_sphere(f.facet, x, r);
+  if (bodies.shape[i1] == Shape::wall) return wall_sphere(f.axis, bodies.position[i1][f.axis], x, r);
+  return box_sphere(bodies.position[i1], f.half_size, f.orientation, x, r);
+}
+
 // Everything that evaluating a pair reads, and the contact arrays that it writes at its own index.
 template <RealType Real>
 struct ContactPass {
@@ -125,6 +138,42 @@ struct ContactPass {
     }
   }
 
+  // Where two bodies that touch do so, as evaluate() has it.
+  [[nodiscard]] ContactGeometry<Real> geometry(std::size_t i1, std::size_t i2, bool flat) const {
+    if (flat) return flat_geometry(i1, i2);
+    return sphere_sphere(bodies.position[i1], bodies.radius[i1], bodies.position[i2], bodies.radius[i2]);
+  }
+
+  // What extends the shear spring.
+  [[nodiscard]] Vec3<Real> relative_velocity(std::size_t i1, std::size_t i2, bool flat, const Real& overlap,
+                                             const Vec3<Real>& normal) const {
+    const Vec3<Real>& v1 = bodies.velocity[i1];
+    const Vec3<Real>& v2 = bodies.velocity[i2];
+    if (flat) {
+      if (!parts.rotation) return v2 - v1;
+      const Real arm = bodies.radius[i2] - overlap / 2;
+      return (v2 - cross(bodies.angular_velocity[i2], arm * normal)) - v1;
+    }
+    const Real& r1 = bodies.radius[i1];
+    const Real& r2 = bodies.radius[i2];
+    if (!parts.rotation) return sphere_relative_velocity(overlap, r1, r2, v1, v2);
+    return sphere_relative_velocity(normal, overlap, r1, r2, v1, v2, bodies.angular_velocity[i1],
+                                    bodies.angular_velocity[i2]);
+  }
+
+  // Of the two surfaces where they meet; what forces work on.
+  [[nodiscard]] Vec3<Real> contact_velocity(std::size_t i1, std::size_t i2, bool flat, const Real& overlap,
+                                            const Vec3<Real>& normal) const {
+    const Vec3<Real> v = bodies.velocity[i2] - bodies.velocity[i1];
+    if (!parts.rotation) return v;
+    const Real half = overlap / 2;
+    const Vec3<Real> w2 = (bodies.radius[i2] - half) * bodies.angular_velocity[i2];
+    const Vec3<Real> turn2 = v - cross(w2, normal);
+    if (flat) return turn2;
+    const Vec3<Real> w1 = (bodies.radius[i1] - half) * bodies.angular_velocity[i1];
+    return turn2 - cross(w1, normal);
+  }
+
  private:
   // Apart by more than any rounding to double can feign: decides nothing that Real would decide otherwise,
   // but spares it the arithmetic.
@@ -139,12 +188,7 @@ struct ContactPass {
   }
 
   [[nodiscard]] ContactGeometry<Real> flat_geometry(std::size_t i1, std::size_t i2) const {
-    const Flat<Real>& f = flats[static_cast<std::size_t>(bodies.flat[i1])];
-    const Vec3<Real>& x = bodies.position[i2];
-    const Real& r = bodies.radius[i2];
-    if (bodies.shape[i1] == Shape::facet) return facet_sphere(f.facet, x, r);
-    if (bodies.shape[i1] == Shape::wall) return wall_sphere(f.axis, bodies.position[i1][f.axis], x, r);
-    return box_sphere(bodies.position[i1], f.half_size, f.orientation, x, r);
+    return flat_contact(bodies, flats, i1, i2);
   }
 
   bool lose(std::size_t p, std::size_t i1, std::size_t i2) const {
@@ -178,38 +222,9 @@ struct ContactPass {
     return physics;
   }
 
-  [[nodiscard]] Vec3<Real> relative_velocity(std::size_t i1, std::size_t i2, bool flat, const Real& overlap,
-                                             const Vec3<Real>& normal) const {
-    const Vec3<Real>& v1 = bodies.velocity[i1];
-    const Vec3<Real>& v2 = bodies.velocity[i2];
-    if (flat) {
-      if (!parts.rotation) return v2 - v1;
-      const Real arm = bodies.radius[i2] - overlap / 2;
-      return (v2 - cross(bodies.angular_velocity[i2], arm * normal)) - v1;
-    }
-    const Real& r1 = bodies.radius[i1];
-    const Real& r2 = bodies.radius[i2];
-    if (!parts.rotation) return sphere_relative_velocity(overlap, r1, r2, v1, v2);
-    return sphere_relative_velocity(normal, overlap, r1, r2, v1, v2, bodies.angular_velocity[i1],
-                                    bodies.angular_velocity[i2]);
-  }
-
   // Of the centres, along the normal; rotation has no part in it.
   [[nodiscard]] Real closing_speed(std::size_t i1, std::size_t i2, const Vec3<Real>& normal) const {
     return -dot(normal, bodies.velocity[i2] - bodies.velocity[i1]);
-  }
-
-  // Of the two surfaces where they meet; what forces work on.
-  [[nodiscard]] Vec3<Real> contact_velocity(std::size_t i1, std::size_t i2, bool flat, const Real& overlap,
-                                            const Vec3<Real>& normal) const {
-    const Vec3<Real> v = bodies.velocity[i2] - bodies.velocity[i1];
-    if (!parts.rotation) return v;
-    const Real half = overlap / 2;
-    const Vec3<Real> w2 = (bodies.radius[i2] - half) * bodies.angular_velocity[i2];
-    const Vec3<Real> turn2 = v - cross(w2, normal);
-    if (flat) return turn2;
-    const Vec3<Real> w1 = (bodies.radius[i1] - half) * bodies.angular_velocity[i1];
-    return turn2 - cross(w1, normal);
   }
 
   [[nodiscard]] Vec3<Real> carried_shear(std::size_t p, std::size_t i1, std::size_t i2,

@@ -11,6 +11,10 @@ using Text = std::string_view;
 constexpr std::array<Text, 1> kOne = {"1"};
 // 1/(2 - 2^(1/3)) and -2^(1/3)/(2 - 2^(1/3)).
 constexpr std::array<Text, 2> kForestRuth = {"1.351207191959657634", "-1.702414383919315268"};
+// 1/(4 - 4^(1/3)) twice, and 1 - 4 of it.
+constexpr std::array<Text, 3> kSuzuki4 = {"0.4144907717943757371423540628607614957118",
+                                          "0.4144907717943757371423540628607614957118",
+                                          "-0.6579630871775029485694162514430459828471"};
 // xi, lambda, chi.
 constexpr std::array<Text, 3> kPefrl = {"0.1786178958448091", "-0.2123418310626054", "-0.06626458266981849"};
 // Table 1, solution A: w3, w2, w1, w0 = 1 - 2 (w1 + w2 + w3).
@@ -47,6 +51,10 @@ constexpr std::array kRows = {
                    "W. C. Swope, H. C. Andersen, P. H. Berens, K. R. Wilson, J. Chem. Phys. 76 (1982) 637"},
     CompositionRow{"forest_ruth", 4, 3, CompositionKind::drift_first, kForestRuth,
                    "E. Forest, R. D. Ruth, Physica D 43 (1990) 105"},
+    CompositionRow{
+        "ruth3", 3, 3, CompositionKind::ruth3, {}, "R. D. Ruth, IEEE Trans. Nucl. Sci. 30 (1983) 2669"},
+    CompositionRow{"suzuki4", 4, 5, CompositionKind::kick_first, kSuzuki4,
+                   "M. Suzuki, Phys. Lett. A 146 (1990) 319"},
     CompositionRow{"pefrl", 4, 4, CompositionKind::position_extended_fr, kPefrl,
                    "I. P. Omelyan, I. M. Mryglod, R. Folk, Comput. Phys. Commun. 146 (2002) 188"},
     CompositionRow{"yoshida6", 6, 7, CompositionKind::kick_first, kYoshida6,

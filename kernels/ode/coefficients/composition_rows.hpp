@@ -8,6 +8,7 @@ namespace ulpgate::ode {
 
 enum class CompositionKind {
   symplectic_euler,     // one kick, one drift, no parameters
+  ruth3,                // kicks 7/24, 3/4, -1/24 and drifts 2/3, -2/3, 1 in turn
   kick_first,           // palindrome of kick-drift-kick steps; parameters: weights, outermost to central
   drift_first,          // the same of drift-kick-drift steps
   position_extended_fr  // drift xi, kick (1-2 lambda)/2, drift chi, kick lambda, drift 1-2(chi+xi), and back

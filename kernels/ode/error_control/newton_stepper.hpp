@@ -200,9 +200,10 @@ class NewtonStepper final : public ErrorStepper<Real> {
   [[nodiscard]] bool iterate(const Real& t, const Real& h) {
     using std::isfinite, std::log, std::sqrt;
     const Real u = std::numeric_limits<Real>::epsilon() / 2;
-    const Real wanted = tolerance_ > u ? tolerance_ : u;
+    // The rate falls behind its first estimate, and errors of many steps add up with one sign.
+    const Real wanted = (tolerance_ > u ? tolerance_ : u) / 1024;
     // A decomposition costs about as much as a third of the equations' number of corrections.
-    const Real worth(static_cast<int>(std::max<std::size_t>(4, s() * n() / 3)));
+    const Real worth = static_cast<Real>(std::max<std::size_t>(4, s() * n() / 3));
     Real before(0);
     int without_progress = 0;
     for (int iteration = 0; iteration < 200; ++iteration) {

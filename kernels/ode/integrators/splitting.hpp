@@ -22,6 +22,10 @@ struct Substep {
 template <RealType Real>
 [[nodiscard]] std::vector<Substep<Real>> substeps(CompositionKind kind, const std::vector<Real>& parameters) {
   if (kind == CompositionKind::symplectic_euler) return {{kKick, Real(1)}, {kDrift, Real(1)}};
+  if (kind == CompositionKind::ruth3) {
+    return {{kKick, Real(7) / 24},  {kDrift, Real(2) / 3},    {kKick, Real(3) / 4},
+            {kDrift, -Real(2) / 3}, {kKick, -(Real(1) / 24)}, {kDrift, Real(1)}};
+  }
   std::vector<Substep<Real>> sequence;
   const std::vector<Factor<Real>> factors = condition_factors(kind, parameters);
   if (kind == CompositionKind::position_extended_fr) {

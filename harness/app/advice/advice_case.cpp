@@ -1,0 +1,257 @@
+// AdviceCase.
+#include "harness/app/advice/advice_case.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "harness/app/shell/selection.hpp"
+#include "harness/core/trajectories/truth.hpp"
+#include "kernels/ode/integrators/integrators.hpp"
+#include "kernels/ode/problems/initial_value_cases.hpp"
+#include "kernels/scenes/reader/expression.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+// Trajectories begin with so many steps.
+constexpr std::uint64_t first_steps = 16;
+constexpr int trajectory_levels = 22;
+constexpr int scene_levels = 18;
+constexpr int coarser = 2;
+// Truths and references are good to a tenth of the wanted error, in digits of the case two more.
+constexpr double reference_share = 0.1;
+
+std::vector<std::string> fine_types(const AdviceOptions& o) {
+  std::vector<std::string> types;
+  for (const auto& token : select_types(o.types))
+    if (std::ldexp(1.0, -type_or_fail(token).significand_bits) <= o.error) types.push_back(token);
+  std::ranges::stable_sort(types, {}, [](const auto& t) { return type_or_fail(t).significand_bits; });
+  if (types.empty()) {
+    throw Failure(
+        Standing::incomplete,
+        fmt::format("--error {:g} is below the roundoff of every type of --types {}", o.error, o.types));
+  }
+  return types;
+}
+
+// A double of so many operations takes about a nanosecond each.
+double operation_s(const std::string& token) {
+  const int bits = type_or_fail(token).significand_bits;
+  return bits <= 53 ? 1e-9 : (bits <= 64 ? 2e-9 : 3e-8 + 4e-10 * bits);
+}
+
+class TrajectoryAdvice final : public AdviceCase {
+ public:
+  TrajectoryAdvice(const InitialValueInfo& problem, const AdviceOptions& o)
+      : problem_(problem),
+        end_(end_of_problem(problem, o.until)),
+        digits_(std::clamp(static_cast<int>(std::ceil(-std::log10(o.error))) + 2, 15, most_truth_digits)),
+        truth_(shared_truth(problem.name, end_, digits_)) {
+    for (const auto& type : fine_types(o)) {
+      for (const auto& integrator : select_integrators_of(o.integrators))
+        if (find_trajectory_engine(type)->applies(integrator, problem.name))
+          choices_.push_back({type, integrator});
+    }
+  }
+
+  void prepare(const ode::StopFlag& stop) const override { static_cast<void>(truth_->get(stop)); }
+  [[nodiscard]] double guess_s(const Choice& choice) const override {
+    const double size = static_cast<double>(problem_.components);
+    return static_cast<double>(first_steps) * evaluations_of_step(choice.integrator) * (20 + 10 * size) *
+           operation_s(choice.type);
+  }
+  [[nodiscard]] int levels() const override { return trajectory_levels; }
+  [[nodiscard]] std::unique_ptr<SettingMeasurement> setting(const Choice& choice, int level) const override {
+    const std::uint64_t steps = first_steps << static_cast<unsigned>(level);
+    WorkSetting s{WorkSubject::trajectory,
+                  problem_.name,
+                  choice.type,
+                  choice.integrator,
+                  end_,
+                  "",
+                  steps,
+                  ode::end_time<double>(end_) / static_cast<double>(steps)};
+    return std::make_unique<TrajectorySetting>(std::move(s), *find_trajectory_engine(choice.type), truth_,
+                                               default_evaluation_budget);
+  }
+
+  [[nodiscard]] std::string error_words() const override {
+    return fmt::format("error of the state at t = {}, relative to its largest component (truth to {} digits)",
+                       end_, digits_);
+  }
+  [[nodiscard]] std::string kink_words(const std::string& integrator) const override {
+    if (!problem_.stiff)
+      return "steps are too long for the order to show, or the motion is not smooth enough";
+    return ode::is_for_stiff(ode::find_integrator(integrator).kind)
+               ? "reduction of the order, as the problem is stiff, or steps too long for it to show"
+               : "the problem is stiff and the method is made for others";
+  }
+  [[nodiscard]] std::string contact_words(const WorkSetting& /*setting*/) const override { return ""; }
+  [[nodiscard]] std::string run_command(const WorkSetting& s) const override {
+    std::string words =
+        fmt::format("ulpgate work-precision --cases {} --integrators {} --types {} --steps {}", s.name,
+                    s.integrator, s.type, s.steps);
+    if (end_ != problem_.ends.front()) words += fmt::format(" --until '{}'", end_);
+    return words + (digits_ > 30 ? fmt::format(" --digits {}", digits_) : "");
+  }
+  [[nodiscard]] std::string measure_command(const WorkSetting& s) const override { return run_command(s); }
+
+ private:
+  const InitialValueInfo& problem_;
+  std::string end_;
+  int digits_;
+  SharedTruth truth_;
+};
+
+class SceneAdvice final : public AdviceCase {
+ public:
+  explicit SceneAdvice(const AdviceOptions& o)
+      : o_(o), ladder_(scene_ladder(o.name, o.overrides, "", o.until, coarser, scene_levels - 1 - coarser)) {
+    ReferenceRequest request;
+    request.scene = ladder_.scene;
+    // It is made finer until it is good enough, and no finer.
+    request.finest_steps = ladder_.steps.front();
+    request.instants = ladder_.instants;
+    request.bits = static_cast<long>(std::ceil(-std::log2(o.error))) + 16;
+    request.wanted_error = reference_share * o.error;
+    request.most_work = 5 * most_reference_work;
+    reference_ = shared_reference(request);
+    for (const auto& type : fine_types(o)) {
+      for (const auto& integrator : admitted(ladder_, select_integrators_of(o.integrators)))
+        choices_.push_back({type, integrator});
+    }
+    size_m_ = scene_size(*rough_engine());
+    smooth_ = admits(ladder_.scene, rough_type(), "velocity_verlet");
+  }
+
+  void prepare(const ode::StopFlag& stop) const override { static_cast<void>(reference_->get(stop)); }
+  // A few steps are taken: what a step costs is measured, what its error is is not assumed.
+  [[nodiscard]] double guess_s(const Choice& choice) const override {
+    using Clock = std::chrono::steady_clock;
+    SceneRequest scene = ladder_.scene;
+    scene.integrator = choice.integrator;
+    const auto engine = engine_of(choice.type, dem::Level::own, make_job(scene));
+    constexpr std::uint64_t probe = 4;
+    engine->step(1);
+    const auto start = Clock::now();
+    engine->step(probe);
+    const double step_s = std::chrono::duration<double>(Clock::now() - start).count() / probe;
+    return step_s * static_cast<double>(ladder_.steps.front());
+  }
+  [[nodiscard]] int levels() const override { return static_cast<int>(ladder_.dts.size()); }
+  [[nodiscard]] std::unique_ptr<SettingMeasurement> setting(const Choice& choice, int level) const override {
+    return scene_setting(ladder_, static_cast<std::size_t>(level), choice.type, choice.integrator,
+                         reference_);
+  }
+
+  [[nodiscard]] std::string error_words() const override {
+    return fmt::format(
+        "largest position error up to t = {} s against the converged reference, relative to the scene's size "
+        "of "
+        "{:.3g} m",
+        ladder_.end, size_m_);
+  }
+  [[nodiscard]] std::string kink_words(const std::string& integrator) const override {
+    if (smooth_) {
+      return integrator == "leapfrog"
+                 ? "the leapfrog takes v(0) for that of half a step before, which costs it an order"
+                 : "steps are too long for the order to show";
+    }
+    return "force kink: contacts begin and end within steps";
+  }
+  [[nodiscard]] std::string contact_words(const WorkSetting& s) const override {
+    if (smooth_) return "";
+    std::vector<std::string> words;
+    if (const auto t_c = collision_time_s())
+      words.push_back(fmt::format("{:.3g} steps a contact (t_c = {:g} s)", *t_c / s.dt_value, *t_c));
+    const auto engine = rough_engine();
+    for (const auto* name : {"stiffness", "rayleigh"}) {
+      const double critical = engine->critical_step(name);
+      if (std::isfinite(critical) && critical > 0)
+        words.push_back(fmt::format("{:.2g} of the critical step by {}", s.dt_value / critical, name));
+    }
+    return fmt::format("{}", fmt::join(words, ", "));
+  }
+  [[nodiscard]] std::string run_command(const WorkSetting& s) const override {
+    SceneRequest scene = ladder_.scene;
+    scene.dt = s.dt;
+    scene.steps.reset();
+    scene.until = ladder_.end;
+    const bool exact = make_job(scene).steps == s.steps;
+    return fmt::format("ulpgate scene run {} --types {} --integrator {} --dt '{}' {}{}", o_.name, s.type,
+                       s.integrator, s.dt,
+                       exact ? "--until " + ladder_.end : "--steps " + std::to_string(s.steps), set_words());
+  }
+  [[nodiscard]] std::string measure_command(const WorkSetting& s) const override {
+    return fmt::format("ulpgate work-precision --cases {} --types {} --integrators {} --dt '{}' --until {}{}",
+                       o_.name, s.type, s.integrator, s.dt, ladder_.end, set_words());
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<dem::DemEngine> rough_engine() const {
+    return engine_of(rough_type(), dem::Level::own, make_job(ladder_.scene));
+  }
+  [[nodiscard]] std::string set_words() const {
+    std::string words;
+    for (const auto& text : o_.overrides) words += " --set '" + text + "'";
+    return words;
+  }
+  // The shortest of the scene's visco-elastic contacts.
+  [[nodiscard]] std::optional<double> collision_time_s() const {
+    const scenes::Scene scene = make_job(ladder_.scene).loaded.scene;
+    if (scene.law != scenes::ContactLaw::viscoelastic) return std::nullopt;
+    scenes::Evaluator<double> evaluate;
+    for (const auto& [name, value] : scene.constants) evaluate.define(name, evaluate(value));
+    double least = HUGE_VAL;
+    for (const auto& m : scene.materials) least = std::min(least, evaluate(m.collision_time));
+    return std::isfinite(least) ? std::optional(least) : std::nullopt;
+  }
+
+  AdviceOptions o_;
+  SceneLadder ladder_;
+  SharedReference reference_;
+  double size_m_ = 1;
+  bool smooth_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<AdviceCase> make_advice_case(const AdviceOptions& o) {
+  std::unique_ptr<AdviceCase> made;
+  if (const auto* problem = find_problem(o.name)) {
+    if (!o.overrides.empty())
+      throw Failure(Standing::bad_input, fmt::format("--set is of scenes; {} is none", o.name));
+    made = std::make_unique<TrajectoryAdvice>(*problem, o);
+  } else {
+    const bool file = o.name.find_first_of("./") != std::string::npos;
+    const bool scene = std::ranges::any_of(builtin_scenes(), [&](const auto& b) { return o.name == b.name; });
+    if (!file && !scene) {
+      auto known = problem_names();
+      for (const auto& b : builtin_scenes()) known.emplace_back(b.name);
+      unknown_name("scene or case", o.name, known);
+    }
+    made = std::make_unique<SceneAdvice>(o);
+  }
+  if (made->choices().empty()) {
+    throw Failure(Standing::incomplete,
+                  fmt::format("no integrator of --integrators {} applies to {}", o.integrators, o.name));
+  }
+  return made;
+}
+
+std::optional<std::string> wider_type(const std::string& token) {
+  const int bits = type_or_fail(token).significand_bits;
+  const RealDescriptor* best = nullptr;
+  for (const auto& type : all_types()) {
+    if (type.significand_bits < bits + 8) continue;
+    if (best == nullptr || type.significand_bits < best->significand_bits) best = &type;
+  }
+  return best == nullptr ? std::nullopt : std::optional(best->token);
+}
+
+}  // namespace ulpgate::app

@@ -1,0 +1,111 @@
+// ulpgate advise: the cheapest type, integrator and step that meet an error.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "harness/app/advice/advice.hpp"
+#include "harness/app/advice/work_precision_output.hpp"
+#include "harness/app/advice/work_precision_records.hpp"
+#include "harness/app/machine/machine_facts.hpp"
+#include "harness/app/shell/selection.hpp"
+#include "harness/app/store/context.hpp"
+#include "harness/app/stress_commands/stress_commands.hpp"
+#include "harness/core/arguments/random_words.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+constexpr const char* advice_file = "advice.json";
+
+std::string plan_text_of(const AdviceOptions& o) {
+  std::string text =
+      fmt::format("ulpgate advise plan 1\n{} error {:a} time {:a} types {} integrators {} until {}\n", o.name,
+                  o.error, o.time_s, o.types, o.integrators, o.until);
+  for (const auto& set : o.overrides) text += "set " + set + "\n";
+  return text;
+}
+
+void keep(const OutputDirectory& out, Json context, const Advice& advice, const Json& json) {
+  const std::string plan = out.identity().plan;
+  const auto rows = measured_rows(advice);
+  out.write(advice_file, json.dump(2) + "\n");
+  out.write(work_precision_file, row_lines(rows, plan));
+  out.write(fits_file, fit_lines(rows, plan));
+  out.write(times_file, timing_lines(rows, advice.times, plan));
+  context["complete"] = true;
+  out.finish(std::move(context), true);
+}
+
+Verdict run_advise(const AdviceOptions& o) {
+  if (o.out.empty() && o.overwrite) throw Failure(Standing::bad_input, "--overwrite needs --out DIR");
+  const auto advice_case = make_advice_case(o);
+  std::optional<OutputDirectory> out;
+  Json context;
+  if (!o.out.empty()) {
+    const std::string text = plan_text_of(o);
+    const std::string plan = fmt::format("{:016x}", fnv1a(text));
+    out.emplace(o.out, RunIdentity{"advise", plan, {Shard().text()}, "", machine_facts()},
+                partial_run(false, o.overwrite));
+    context = make_scene_context(plan, text, select_types(o.types), 1, false);
+    out->begin(context);
+  }
+  const Advice advice = advise(*advice_case, o);
+  const Json json = advice_json(advice, *advice_case, o);
+  if (out) keep(*out, context, advice, json);
+  if (o.json) {
+    fmt::print("{}\n", json.dump());
+  } else {
+    print_advice(advice, *advice_case, o);
+  }
+  if (advice.best) return Standing::pass;
+  throw Failure(
+      Standing::incomplete,
+      fmt::format("no setting meets {:g} within {:g} s a run and {:g} s of search{}", o.error, o.time_s,
+                  o.search_s, advice.nearest ? "; the nearest is limited by " + advice.limit : ""));
+}
+
+std::string positive_and_finite(const std::string& text) {
+  double x = 0;
+  const bool good = CLI::detail::lexical_cast(text, x) && std::isfinite(x) && x > 0;
+  return good ? "" : "'" + text + "' is no finite number above 0";
+}
+
+}  // namespace
+
+void add_advise_command(CLI::App& app, Action& action) {
+  auto* verb = app.add_subcommand("advise", "Find the cheapest type, integrator and step that meet an error");
+  verb->footer(
+      "Examples:\n"
+      "  ulpgate advise pendulum3 --error 1e-10 --until 0.1\n"
+      "  ulpgate advise robertson --error 1e-12 --types double,long_double,float128\n"
+      "Errors are measured, never computed from an order.  Exit code 3 where no setting meets the error.");
+  auto o = std::make_shared<AdviceOptions>();
+  const CLI::Validator positive(positive_and_finite, "NUMBER");
+  verb->add_option("SCENE|CASE", o->name, "a scene built in, a file of a scene, or an initial value problem")
+      ->required();
+  verb->add_option("--error", o->error,
+                   "wanted: of a problem's final state, of a scene's positions up to its end; relative")
+      ->required()
+      ->check(positive);
+  verb->add_option("--time", o->time_s, "the longest that the recommended run may take, s")
+      ->capture_default_str()
+      ->check(positive);
+  verb->add_option("--search-seconds", o->search_s, "what all runs of the search may take together")
+      ->capture_default_str()
+      ->check(positive);
+  verb->add_option("--types", o->types, "all or tokens, comma-separated")->capture_default_str();
+  verb->add_option("--integrators", o->integrators, "all or names; those that do not apply are left out")
+      ->capture_default_str();
+  verb->add_option(
+      "--until", o->until,
+      "end: one of the problem's, or of a scene in s (without: at most 1 s and 2e6 steps of a body)");
+  verb->add_option("--set", o->overrides, "key=value of a scene, again for another")->allow_extra_args(false);
+  verb->add_option("--records", o->records, "a directory of work_precision.jsonl to take settings from");
+  auto* out = verb->add_option("--out", o->out, "directory of advice.json and of the settings measured");
+  verb->add_flag("--overwrite", o->overwrite, "write over the records of another plan")->needs(out);
+  verb->add_flag("--json", o->json, "print the advice as JSON");
+  verb->callback([=, &action] { action = [=] { return run_advise(*o); }; });
+}
+
+}  // namespace ulpgate::app

@@ -1,0 +1,232 @@
+"""Tests of `ulpgate work-precision` through the program: records, schema, bytes, resumed and refused runs."""
+
+import contextlib
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import time
+
+import jsonschema
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
+SCHEMA = json.loads(
+    (ROOT / "reports/schema/work_precision.schema.json").read_text("utf-8")
+)
+
+# A second each, exact parts alone.
+KEPLER = ["--cases", "kepler", "--integrators", "leapfrog,yoshida8,gauss4"]
+KEPLER += ["--types", "float,double", "--steps", "64..32768"]
+PENDULUM = ["--cases", "pendulum3", "--until", "0.01", "--types", "float,double"]
+PENDULUM += ["--integrators", "leapfrog,pefrl"]
+SUBJECTS = ["--subjects", "sin,sphere_sphere", "--types", "float,double"]
+SUBJECTS += ["--samples", "300"]
+SIZES = {"trajectory": KEPLER, "scene": PENDULUM, "subjects": SUBJECTS}
+FILES = ["work_precision.jsonl", "work_precision_fits.jsonl"]
+
+
+def words(*more):
+    return [ULPGATE, "work-precision", *map(str, more)]
+
+
+def run(*more):
+    done = subprocess.run(words(*more), capture_output=True, text=True, cwd=ROOT)
+    return done.returncode, done.stdout, done.stderr
+
+
+def rows(text):
+    return [json.loads(line) for line in text.splitlines()]
+
+
+def exact(out):
+    return [(out / name).read_bytes() for name in FILES]
+
+
+@contextlib.contextmanager
+def started(*more):
+    """A run in the background, which does not outlive the test."""
+    process = subprocess.Popen(
+        words(*more),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=ROOT,
+    )
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def log_lines(out):
+    log = out / "units/log.txt"
+    return log.read_bytes().splitlines() if log.exists() else []
+
+
+@pytest.fixture(scope="module", params=sorted(SIZES))
+def whole(request, tmp_path_factory):
+    """The options of an uninterrupted run of one thread without times, and its directory."""
+    size = [*SIZES[request.param], "--repeats", "0"]
+    out = tmp_path_factory.mktemp(request.param)
+    code, table, err = run(*size, "--threads", "1", "--out", out)
+    assert code == 0, table + err
+    assert not (out / "units").exists(), "a complete run keeps no units"
+    return size, out
+
+
+def test_every_line_is_what_the_schema_says(tmp_path):
+    for name, size in SIZES.items():
+        out = tmp_path / name
+        code, _, err = run(*size, "--repeats", "2", "--out", out)
+        assert code == 0, err
+        lines = [
+            x
+            for f in (*FILES, "work_precision_timing.jsonl")
+            for x in rows((out / f).read_text())
+        ]
+        for line in lines:
+            jsonschema.validate(line, SCHEMA)
+        kinds = {line["what"] for line in lines}
+        fitted = {"work_precision_fit"} if name != "subjects" else set()
+        assert kinds == {"work_precision", "work_precision_timing", *fitted}
+        timed = {x["key"]: x for x in lines if x["what"] == "work_precision_timing"}
+        good = [
+            x for x in lines if x["what"] == "work_precision" and x["failure"] is None
+        ]
+        assert len(timed) == len(good), "every setting that did not fail is timed"
+        for t in timed.values():
+            assert t["seconds"] == min(t["samples_s"]) <= t["median_s"]
+        assert any(t["on_front"] for t in timed.values())
+
+
+def test_any_number_of_threads_gives_the_same_bytes(tmp_path, whole):
+    size, out = whole
+    code, _, err = run(*size, "--threads", "3", "--out", tmp_path)
+    assert code == 0, err
+    assert exact(tmp_path) == exact(out)
+
+
+def test_a_killed_run_goes_on_to_the_same_bytes(tmp_path, whole):
+    size, out = whole
+    with started(*size, "--threads", "1", "--out", tmp_path) as process:
+        while process.poll() is None and len(log_lines(tmp_path)) < 2:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    code, _, err = run(*size, "--resume", "--out", tmp_path)
+    assert code == 0, err
+    assert exact(tmp_path) == exact(out)
+    code, table, err = run(*size, "--resume", "--out", tmp_path)
+    assert code == 0 and "complete already" in err and table
+
+
+def test_orders_are_measured_and_rounding_is_found():
+    code, out, err = run(
+        *["--cases", "kepler", "--integrators", "gauss4", "--types", "double,float"],
+        *["--steps", "16384..131072", "--repeats", "0", "--json"],
+    )
+    assert code == 0, err
+    lines = rows(out)
+    fits = {
+        (x["type"], x["error"]): x for x in lines if x["what"] == "work_precision_fit"
+    }
+    assert fits["double", "final_error"]["best_error"] < 1e-6
+    errors = {
+        x["type"]: x["final_error"]
+        for x in lines
+        if x["what"] == "work_precision" and x["steps"] == 131072
+    }
+    assert errors["float"] > 1e3 * errors["double"]
+
+
+def test_leapfrog_of_the_pendulum_is_of_first_order_and_its_energy_of_second():
+    code, out, err = run(
+        *["--cases", "pendulum3", "--until", "0.01", "--types", "double", "--json"],
+        *["--integrators", "leapfrog", "--repeats", "0"],
+    )
+    assert code == 0, err
+    fits = {x["error"]: x for x in rows(out) if x["what"] == "work_precision_fit"}
+    assert abs(fits["final_error"]["order"] - 1) < 0.1
+    assert abs(fits["energy_error"]["order"] - 2) < 0.2
+
+
+def test_angles_of_a_chain_stay_true_for_a_time():
+    code, out, err = run(
+        *["--cases", "pendulum3", "--until", "0.1", "--dt", "2e-5,1e-5", "--json"],
+        *["--types", "double", "--integrators", "pefrl", "--repeats", "0"],
+    )
+    assert code == 0, err
+    lines = [x for x in rows(out) if x["what"] == "work_precision"]
+    assert [x["steps"] for x in lines] == [5000, 10000]
+    for x in lines:
+        assert x["t_s_to_the_end"] and abs(x["t_s"] - 0.1) < 1e-9
+        assert x["largest_error"] >= x["final_error"] > 100 * x["reference_error"]
+        assert x["evaluations"] == 4 * x["steps"]
+
+
+def test_failed_settings_break_their_curve_and_have_no_error():
+    code, out, err = run(
+        *["--cases", "robertson", "--integrators", "euler,cash_karp54,radau3"],
+        *["--types", "double", "--steps", "64,65536", "--repeats", "0", "--json"],
+    )
+    assert code == 0, err
+    lines = [x for x in rows(out) if x["what"] == "work_precision"]
+    failed = [x for x in lines if x["failure"]]
+    assert {x["integrator"] for x in failed} >= {"euler", "cash_karp54"}
+    for x in failed:
+        assert x["failure"] in ("diverged", "refused") and x["why"]
+        assert x["final_error"] is None and x["regime"] == "failed"
+    fine = [x for x in lines if x["steps"] == 65536 and x["integrator"] == "radau3"]
+    assert [x["failure"] for x in fine] == [None] and fine[0]["final_error"] < 1e-9
+
+
+def test_what_is_over_the_budget_is_refused():
+    code, out, err = run(
+        *["--cases", "kepler", "--integrators", "gauss4", "--types", "double"],
+        *["--steps", "64", "--budget", "10", "--repeats", "0"],
+    )
+    assert code == 3 and "budget" in out + err and "nothing measured" in err
+
+
+REFUSED = [
+    (2, ["--cases", "keplr"], "kepler"),
+    (2, ["--subjects", "sine"], "sin"),
+    (2, ["--integrators", "yoshida7"], "yoshida6"),
+    (2, ["--types", "decimal"], "type"),
+    (2, ["--steps", "0"], "--steps"),
+    (2, ["--steps", "64..32"], "ends before"),
+    (2, ["--cases", "kepler", "--until", "7"], "2 pi"),
+    (2, ["--cases", "collision", "--dt", "1e-6,3e-7"], "--until"),
+    (2, ["--cases", "collision", "--dt", "nonsense"], "nonsense"),
+    (2, ["--resume"], "--out"),
+    (3, ["--cases", "collision", "--integrators", "gauss2"], "applies"),
+]
+
+
+@pytest.mark.parametrize("code,more,message", REFUSED)
+def test_what_is_asked_wrongly_is_refused(code, more, message):
+    got, out, err = run(*more, "--repeats", "0")
+    assert got == code and message in err, out + err
+
+
+def test_records_of_another_plan_are_not_replaced_silently(tmp_path):
+    size = ["--subjects", "sin", "--samples", "50", "--repeats", "0", "--out", tmp_path]
+    assert run(*size)[0] == 0
+    kept = exact(tmp_path)
+    code, _, err = run(*size, "--types", "float")
+    assert code == 2 and "another plan" in err
+    assert exact(tmp_path) == kept
+    assert run(*size, "--types", "float", "--overwrite")[0] == 0
+
+
+def test_a_changed_record_is_noticed(tmp_path):
+    size = ["--subjects", "sin", "--samples", "50", "--repeats", "0", "--out", tmp_path]
+    assert run(*size)[0] == 0
+    file = tmp_path / "work_precision.jsonl"
+    file.write_text(file.read_text().replace('"evaluations":50', '"evaluations":51'))
+    code, _, err = run(*size, "--resume")
+    assert code == 2 and "checksum" in err
