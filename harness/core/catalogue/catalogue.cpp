@@ -1,3 +1,4 @@
+// stress_catalogue(): the families of cases, one behind the other.
 #include "harness/core/catalogue/catalogue.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// formula_cases(): the forms of every problem as stress cases.
 #include "harness/core/formula_cases/formula_cases.hpp"
 
 #include "harness/core/formula_cases/formula_judgement.hpp"

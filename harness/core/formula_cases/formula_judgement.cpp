@@ -1,3 +1,4 @@
+// What a form of a problem comes to in one type, against the truth of the problem.
 #include "harness/core/formula_cases/formula_judgement.hpp"
 
 #include <algorithm>

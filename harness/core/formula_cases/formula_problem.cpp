@@ -1,3 +1,4 @@
+// formula_problems(): the problems of all themes, and what their rows are made with.
 #include "harness/core/formula_cases/formula_problem.hpp"
 
 #include "reference/text/literal.hpp"

@@ -1,3 +1,4 @@
+// Names of verdicts, the rule that gives them, and what is known of a case.
 #include "harness/core/stress/stress_case.hpp"
 
 #include <array>

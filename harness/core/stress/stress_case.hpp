@@ -49,17 +49,18 @@ struct StressRow {
   std::optional<double> error;           // E of rounding alone, relative and normwise
   std::optional<double> stepping_error;  // of the method at this step, in exact arithmetic; relative
   std::optional<double> condition;       // kappa; of a trajectory that of every step's perturbations together
-  std::optional<double> correct_digits;  // of the result against the truth, by both errors, at most the type's
-  std::string first_wrong;               // the first step or argument at which it goes wrong; empty: nowhere
-  std::string why;                       // the error's text of a refusal, or what a wrong outcome consists of
+  std::optional<double>
+      correct_digits;       // of the result against the truth, by both errors, at most the type's
+  std::string first_wrong;  // the first step or argument at which it goes wrong; empty: nowhere
+  std::string why;          // the error's text of a refusal, or what a wrong outcome consists of
   std::map<std::string, double> figures;  // further numbers of the case by name, finite
   std::string reproducer;  // a command that shows it alone; empty: the default, the case by its name
 };
 
 struct StressCase {
-  std::string kind;   // "formula", "trajectory", "state", "scene", "metamorphic", "step_limit"
-  std::string name;   // "rump_1988", "robertson", "far_from_the_origin"
-  std::string form;   // what varies under one name: "naive", "stable", an integrator; empty where nothing does
+  std::string kind;  // "formula", "trajectory", "state", "scene", "metamorphic", "step_limit"
+  std::string name;  // "rump_1988", "robertson", "far_from_the_origin"
+  std::string form;  // what varies under one name: "naive", "stable", an integrator; empty where nothing does
   std::string title;  // what it is, in a few words with its source
   std::vector<KnownVerdict> known;
   double cost = 1;  // seconds in double, roughly: the longest begin first
@@ -73,8 +74,8 @@ struct StressCase {
 
 // How a row stands against what is known of its case.
 struct StressStanding {
-  bool as_known;      // stable or ill_conditioned with nothing else known, or the verdict that is known
-  std::string cause;  // of the known verdict
+  bool as_known;         // stable or ill_conditioned with nothing else known, or the verdict that is known
+  std::string cause;     // of the known verdict
   std::string expected;  // "stable", or the known verdict of this type
 };
 [[nodiscard]] StressStanding standing_of(const StressCase& c, std::string_view token, StressVerdict verdict);
