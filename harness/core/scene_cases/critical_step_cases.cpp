@@ -174,10 +174,14 @@ std::vector<NetworkCase> networks() {
                   .title = "14 spheres of a face-centred cubic lattice with friction",
                   .toml = network(rough, spheres(close, ""), frictional),
                   .rotation = true});
-  list.push_back({.form = "hertz",
-                  .title = "two spheres of Hertz's law, 1e-4 m deep",
-                  .toml = network(smooth, spheres(pair, ""), "law = \"hertz_mindlin\"\n"),
-                  .springs = hertz_springs});
+  list.push_back(
+      {.form = "hertz",
+       .title = "two spheres of Hertz's law, 1e-4 m deep",
+       .toml = network(smooth, spheres(pair, ""), "law = \"hertz_mindlin\"\n"),
+       .springs = hertz_springs,
+       .known = {{"float", StressVerdict::wrong_outcome,
+                  "of the type: the slope of Hertz's force is a root of the overlap, which cancels to "
+                  "three digits of float here"}}});
   list.push_back({.form = "hertz_large",
                   .title = "two spheres of 1000 m of Hertz's law, 10 m deep",
                   .toml = network(smooth,

@@ -21,10 +21,10 @@ struct Resistance {
     translation.add_spring(along, across, n);
     rotation.add_spring(Real(0), across * radius * radius, n);
   }
-  // Largest over all directions, per mass and inertia; 0 for an inertia of 0: it does not turn.
+  // A bound over all directions, per mass and inertia; 0 for an inertia of 0: it does not turn.
   [[nodiscard]] Real rate(const Real& mass, const Real& inertia) const {
-    const Real moved = largest_eigenvalue(translation) / mass;
-    return inertia > 0 ? Real(moved + (largest_eigenvalue(rotation) + bending) / inertia) : moved;
+    const Real moved = eigenvalue_bound(translation) / mass;
+    return inertia > 0 ? Real(moved + (eigenvalue_bound(rotation) + bending) / inertia) : moved;
   }
 };
 
@@ -43,7 +43,7 @@ template <RealType Real>
 // 0.8 of a step (s) at which the leapfrog with dashpot forces of half a step before is stable, whatever the
 // orientation of the scene: what a contact stores and loses is at most twice the sum of what the motions of
 // its two bodies alone would, so that no frequency exceeds that of k = 2 K_i/m_i with dashpots c = 2 C_i/m_i
-// of one body i, K_i and C_i the norms of its 6 by 6 blocks (theirs at most the sum of those of translation
+// of one body i, K_i and C_i bounds of the norms of its 6 by 6 blocks (the sum of those of translation
 // and of rotation), and 4 - 2 dt c - dt^2 k > 0 suffices.  Contacts of Hertz and Mindlin count with the slope
 // of their force.  From the touching contacts; 0 where none limits the step.
 template <RealType Real>

@@ -167,8 +167,13 @@ class NewtonStepper final : public ErrorStepper<Real> {
     }
   }
 
-  // One correction of all stages; its largest component relative to the size of the component.
-  [[nodiscard]] Real correct(const Real& h) {
+  // How much a correction moved the stages: the largest component relative to the size of that component, and
+  // relative to the size of the largest one.
+  struct Change {
+    Real componentwise{0};
+    Real normwise{0};
+  };
+  [[nodiscard]] Change correct(const Real& h) {
     using std::abs;
     Vector residual(at(s() * n()));
     for (std::size_t i = 0; i < s(); ++i) {
@@ -179,9 +184,13 @@ class NewtonStepper final : public ErrorStepper<Real> {
       }
     }
     const Vector change = lu_.solve(residual);
-    Real largest(0);
+    // Below this, a component has not all digits of the type.
+    const Real least = std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
+    Change largest;
+    Real whole(0);
+    Real most(0);
     for (std::size_t d = 0; d < n(); ++d) {
-      Real size = abs(this->state()[d]);
+      Real size = std::max<Real>(abs(this->state()[d]), least);
       Real moved(0);
       for (std::size_t i = 0; i < s(); ++i) {
         const Real& dz = change(at(i * n() + d));
@@ -189,10 +198,12 @@ class NewtonStepper final : public ErrorStepper<Real> {
         if (abs(z_[i][d]) > size) size = abs(z_[i][d]);
         if (!(abs(dz) <= moved)) moved = abs(dz);
       }
-      if (moved == 0) continue;
+      if (size > whole) whole = size;
+      if (!(moved <= most)) most = moved;
       const Real relative = moved / size;
-      if (!(relative <= largest)) largest = relative;
+      if (!(relative <= largest.componentwise)) largest.componentwise = relative;
     }
+    largest.normwise = most / whole;
     return largest;
   }
 
@@ -209,13 +220,20 @@ class NewtonStepper final : public ErrorStepper<Real> {
     for (int iteration = 0; iteration < 200; ++iteration) {
       this->stop().check();
       evaluate_stages(t, h);
-      const Real change = correct(h);
+      const Change moved = correct(h);
+      const Real& change = moved.componentwise;
       if (!isfinite(change)) return false;
       if (change == 0) return true;
       if (iteration > 0) {
         const Real rate = change / before;
         if (rate < 1 && change * rate <= wanted * (1 - rate)) return true;
-        if (rate > Real(1) / 2 && ++without_progress >= 3) return change < sqrt(u) / 16;
+        if (rate > Real(1) / 2) {
+          ++without_progress;
+          const bool at_rounding = change < sqrt(u) / 16 || moved.normwise <= 256 * u;
+          if (without_progress >= 3 && at_rounding) return true;
+          // Far from the solution a small component may wander for a while.
+          if (without_progress >= 12) return false;
+        }
         const bool slow = !(rate < 1) || log(Real(wanted / change)) < worth * log(rate);
         if (slow) decompose_with_each(t, h);
       }
