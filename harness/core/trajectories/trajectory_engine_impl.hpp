@@ -39,8 +39,9 @@ class TrajectoryEngineOf final : public TrajectoryEngine {
   [[nodiscard]] int significand_bits() const override { return std::numeric_limits<Real>::digits; }
 
   [[nodiscard]] bool applies(std::string_view integrator, std::string_view problem) const override {
+    const ode::Problem<Real>& p = find(problem).problem;
     return ode::find_integrator(integrator).kind != ode::IntegratorKind::splitting ||
-           static_cast<bool>(find(problem).problem.acceleration);
+           static_cast<bool>(p.acceleration);
   }
 
   using TrajectoryEngine::equal_steps;

@@ -168,7 +168,11 @@ void judge(const std::vector<LogPoint>& points, std::size_t coarse, const Scored
     const double off = points[i].error - *std::ranges::max_element(branches);
     squares += off * off;
   }
-  if (fitted == 0) return;
+  if (fitted == 0) {
+    // Points enough for a fit, and none of them in one.
+    fit.bad = points.size() >= coarse + least_fitted;
+    return;
+  }
   fit.residual = std::sqrt(squares / static_cast<double>(fitted));
   fit.bad = *fit.residual > bad_residual || best.cut.left_out - coarse > fitted;
 }
