@@ -268,8 +268,8 @@ const KnownLimit* known_limit(std::string_view integrator) {
   static const std::array<KnownLimit, 19> limits{{
       {"leapfrog", 2.0, false, {}},
       {"velocity_verlet", 2.0, false, {}},
-      // Kick first by 7/24, of order 3.  With the same numbers in the order -1/24, 3/4, 7/24 it would be 1.567387,
-      // and of order 1.
+      // Kick first by 7/24, of order 3.  With the same numbers in the order -1/24, 3/4, 7/24 it would
+      // be 1.567387, and of order 1.
       {"ruth3", 2.507481, false, {}},
       {"forest_ruth", 1.573402, false, {}},
       {"yoshida4", 1.573402, false, {}},

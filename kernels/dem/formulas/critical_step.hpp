@@ -68,9 +68,9 @@ struct SymmetricMatrix {
 };
 
 // What no eigenvalue exceeds: q + 2 p, q the mean of the diagonal and p^2 = |A - q|^2/6.  H. Wolkowicz,
-// G. P. H. Styan, Linear Algebra Appl. 29 (1980) 471, theorem 2.1.  It is the eigenvalue itself for springs along
-// one line and for isotropic ones, and 4/3 of it at most where the smallest is 0; the closed form of the eigenvalue
-// loses half of the digits where the two largest are equal.
+// G. P. H. Styan, Linear Algebra Appl. 29 (1980) 471, theorem 2.1.  It is the eigenvalue itself for springs
+// along one line and for isotropic ones, and 4/3 of it at most where the smallest is 0; the closed form of
+// the eigenvalue loses half of the digits where the two largest are equal.
 template <RealType Real>
 [[nodiscard]] Real eigenvalue_bound(const SymmetricMatrix<Real>& m) {
   using std::sqrt;
