@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "harness/app/machine/machine_facts.hpp"
-#include "harness/app/reading/line_kinds.hpp"
+#include "harness/app/reading/run_context.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
 #include "harness/app/stress/stress_output.hpp"
@@ -27,7 +27,8 @@ Verdict report(const StressFindings& findings, const StressOptions& o) {
 
 Verdict look_again(const std::filesystem::path& out, const StressOptions& o) {
   const Json context = read_context(out);
-  const std::string text = read_file(out / stress_file);
+  const std::string text = read_records_text(out, stress_file);
+  check_records_text(context, out, stress_file, text);
   fmt::print(stderr, "ulpgate: {} is complete already\n", out.string());
   const auto findings = stress_findings_of(context.value("verdicts", Json()), (out / context_file).string());
   if (o.json) fmt::print("{}", text);

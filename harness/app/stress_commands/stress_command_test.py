@@ -84,6 +84,11 @@ def test_a_finished_run_is_looked_at_again(tmp_path):
     code, _, err = run(*SMALL, "--out", out, "--resume")
     assert code == 0 and "is complete already" in err
     assert (out / "stress.jsonl").read_bytes() == before
+    # An edited record is not taken for what the run wrote.
+    (out / "stress.jsonl").write_bytes(before.replace(b"unstable", b"stable__"))
+    code, _, err = run(*SMALL, "--out", out, "--resume")
+    assert code == 2 and "stress.jsonl" in err
+    (out / "stress.jsonl").write_bytes(before)
     # Another plan does not write over it.
     code, _, err = run("--cases", "rump_1988", "--types", "double", "--out", out)
     assert code == 2, err

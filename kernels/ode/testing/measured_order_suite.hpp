@@ -28,7 +28,9 @@ TYPED_TEST_P(MeasuredOrder, ErrorFallsByTwoToTheOrderPerHalving) {
         continue;
       }
       // Where few halvings fit between 1 and the floor, the order is not yet asymptotic.
-      const double tolerance = ladder.size() > 6 ? 0.05 : ladder.size() > 3 ? 0.2 : 0.1 * *info.order;
+      // Dormand and Prince's is asymptotic a halving later.
+      const std::size_t few = info.name == "dormand_prince54" ? 6 : 5;
+      const double tolerance = ladder.size() > few ? 0.05 : ladder.size() > 3 ? 0.2 : 0.1 * *info.order;
       EXPECT_NEAR(ladder.back().order, *info.order, tolerance)
           << info.name << " " << solved.name << " at " << ladder.back().steps << " steps, error "
           << ladder.back().error;
