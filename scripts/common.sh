@@ -39,3 +39,13 @@ build() {
     { cat "$ROOT/build/$preset.configure.log" >&2; fail "cmake --preset $preset$(if_full "$ROOT/build")"; }
   cmake --build "$ROOT/build/$preset" --parallel "$JOBS" || fail "the $preset build$(if_full "$ROOT/build")"
 }
+
+# build_with_tests PRESET: a build as the tests and the pipelines want it.
+build_with_tests() {
+  # The sanitised build leaves out long_double and mpfr150, whose code is that of double and mpfr62, and cpp_bin_float62,
+  # whose compilation under a sanitizer alone takes minutes.
+  case "$1" in
+    asan) build asan -DULPGATE_BUILD_TESTS=ON "-DULPGATE_TYPES=float;double;float128;mpfr62" ;;
+    *) build "$1" -DULPGATE_BUILD_TESTS=ON ;;
+  esac
+}

@@ -1,0 +1,200 @@
+"""What a night runs, the most important first, and how large: each job is one command that keeps its own checkpoints.
+
+A job that is killed goes on with the same command, so a night is no more than an order of jobs and a note of those done.
+"""
+
+import dataclasses
+import json
+import subprocess
+
+from night_common import BAD_INPUT, ROOT, Failure
+
+# A seed and a size of its own are another plan, and few types less, than those of the budgets.
+HELD = ("--budgets", str(ROOT / "ci/budgets"), "--other-plan", "--only-measured")
+NATIVE = ["float", "double", "long_double", "float128"]
+# `small` takes minutes on two cores: it is what the tests of the night run.
+SIZES = {
+    "night": {
+        "math": 20000000,
+        "special": 2000000,
+        "kernels": 20000,
+        "search": 4000000,
+        "scene_steps": 3000,
+        "pendulum": True,
+        "exhaustive": True,
+        "stress": (),
+    },
+    "small": {
+        "math": 2000,
+        "special": 0,
+        "kernels": 8,
+        "search": 2000,
+        "scene_steps": 50,
+        "pendulum": False,
+        "exhaustive": False,
+        "stress": ("--kinds", "formula"),
+    },
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    """One command.  Its records stand in OUT/<name>; `words` are those of ulpgate, without --out and --resume."""
+
+    name: str
+    words: tuple
+    # 0: as many threads as the night has; jobs of one thread run beside each other.
+    threads: int = 0
+    # What its records are held to, of `ulpgate gate`; empty where its own exit code is the verdict.
+    gate: tuple = ()
+    # Whether the verb takes --resume; one without is short, or has nothing to go on from.
+    resumes: bool = True
+    # --out names a file and not a directory.
+    out_is_file: bool = False
+
+
+def asked(program, *words):
+    """What the program prints for WORDS."""
+    done = subprocess.run([program, *words], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Failure(
+            BAD_INPUT,
+            f"`ulpgate {' '.join(words)}` ended with {done.returncode}: {done.stderr.strip()}",
+        )
+    return done.stdout
+
+
+def types_of(program, wanted):
+    """The types that were built, in the order of their cost; those of WANTED alone where it is not 'all'."""
+    built = [
+        row["token"] for row in json.loads(asked(program, "list", "types", "--json"))
+    ]
+    types = built if wanted == "all" else wanted.split(",")
+    for token in types:
+        if token not in built:
+            raise Failure(
+                BAD_INPUT,
+                f"--types: no type '{token}' was built; these were: {', '.join(built)}",
+            )
+    return sorted(types, key=built.index)
+
+
+def math_job(name, functions, types, samples, seed, strata):
+    words = (
+        "math",
+        "--functions",
+        functions,
+        "--types",
+        types,
+        "--samples",
+        str(samples),
+        "--seed",
+        str(seed),
+    )
+    worst = ("--worst-cases", str(ROOT / "ci/worst_cases"), "--strata", strata)
+    return Job(f"math/{name}", words + worst, gate=HELD)
+
+
+def search_jobs(program, types, evaluations, seed, worst_cases):
+    rows = json.loads(asked(program, "list", "functions", "--json"))
+    real = [row["function"] for row in rows if row["class"] == "real"]
+    for token in types:
+        for function in real:
+            words = (
+                "search",
+                function,
+                token,
+                "--evaluations",
+                str(evaluations),
+                "--seed",
+                str(seed),
+            )
+            keep = ("--worst-cases", str(worst_cases))
+            yield Job(
+                f"search/{token}_{function}",
+                words + keep,
+                resumes=False,
+                out_is_file=True,
+            )
+
+
+def pendulum_jobs(program, types):
+    """The suite's own list: scripts/pendulum says what it runs."""
+    words = [
+        "--size",
+        "night",
+        "--types",
+        ",".join(types),
+        "--ulpgate",
+        program,
+        "--list",
+    ]
+    done = subprocess.run(
+        [ROOT / "scripts/pendulum", *words], capture_output=True, text=True
+    )
+    if done.returncode != 0:
+        raise Failure(
+            BAD_INPUT,
+            f"`scripts/pendulum --list` ended with {done.returncode}: {done.stderr.strip()}",
+        )
+    for line in done.stdout.splitlines():
+        name, *command = line.split("\t")
+        yield Job(
+            f"pendulum/{name}",
+            tuple(word for word in command if word != "--resume"),
+            threads=1,
+        )
+
+
+def jobs_of(program, size, types, seed, worst_cases):
+    """All jobs of a night, in the order in which they matter: what a merge could have missed comes first."""
+    sizes = SIZES[size]
+    joined = ",".join(types)
+    native = [t for t in types if t in NATIVE]
+    first = [t for t in native if t in ("float", "double")]
+    wide = [t for t in types if t not in NATIVE]
+
+    def drawn(kinds, tokens):
+        for kind in kinds:
+            samples = sizes["math"] if kind == "real" else sizes["special"]
+            for t in tokens if samples else ():
+                yield math_job(
+                    f"{kind}_{t}", kind, t, samples, seed, "uniform,stratified,binades"
+                )
+
+    jobs = [math_job("lists", "all", joined, 20000, seed, "edges,hard,worst")]
+    # In the plan of the budgets, and in many more states, whose verdicts stand in the records.
+    kernels = ("kernels", "--types", joined, "--samples")
+    gate = ("--budgets", str(ROOT / "ci/budgets/kernels"), "--only-measured")
+    jobs.append(Job("kernels/budgets", (*kernels, "64"), gate=gate))
+    large = (*kernels, str(sizes["kernels"]), "--seed", str(seed))
+    jobs.append(Job("kernels/large", large))
+    jobs += drawn(["real"], first)
+    jobs.append(Job("stress", ("stress", "--types", joined, *sizes["stress"])))
+    jobs += drawn(["real"], [t for t in native if t not in first])
+    if sizes["exhaustive"] and "float" in types:
+        every = ("math", "--types", "float", "--strata", "exhaustive")
+        jobs.append(
+            Job(
+                "math/exhaustive",
+                every,
+                gate=("--budgets", str(ROOT / "ci/budgets/exhaustive")),
+            )
+        )
+    jobs += search_jobs(program, native, sizes["search"], seed, worst_cases)
+    if native:
+        words = (
+            "scene",
+            "compare",
+            "deposition",
+            "--steps",
+            str(sizes["scene_steps"]),
+            "--types",
+            ",".join(native),
+        )
+        jobs.append(Job("scenes/deposition", words, resumes=False))
+    if sizes["pendulum"]:
+        jobs += pendulum_jobs(program, types)
+    jobs += drawn(["complex", "special"], native)
+    jobs += drawn(["real", "complex", "special"], wide)
+    return jobs
