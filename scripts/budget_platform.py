@@ -1,6 +1,7 @@
-"""Says whether records come from the platform that the budgets belong to: its C library and its Boost.
+"""Says whether records come from a platform that has budgets: the base's C library and Boost, or one with rows of its own.
 
-budget_platform.py BUDGETS RECORDS exits 0 without a word where they do, and with 1 and a sentence where not.
+budget_platform.py BUDGETS RECORDS exits 0 without a word where they do, and with 1 and a sentence where not.  BUDGETS/platform
+names the base, BUDGETS/platforms/<key>/ holds what is other on another (harness/app/budgets/platform_budgets.hpp).
 """
 
 import json
@@ -8,28 +9,43 @@ import pathlib
 import sys
 
 
-def series(version: str, length: int) -> str:
+def series(version: str) -> str:
     """The leading numbers of a version: 1.81.0 is of the series 1.81."""
-    return ".".join(version.split(".")[:length])
+    return ".".join(version.split(".")[:2])
+
+
+def key(platform: dict[str, str]) -> str:
+    """The name of a platform's directory."""
+    parts = [f"glibc-{platform['glibc']}", f"boost-{platform['Boost']}"]
+    if "instructions" in platform:
+        parts.append(platform["instructions"])
+    return "_".join(parts)
+
+
+def words(platform: dict[str, str]) -> str:
+    """For people."""
+    return " / ".join(f"{name} {value}" for name, value in platform.items())
+
+
+def platform_of(context: dict) -> dict[str, str]:
+    """What records were measured with: without a fused multiply-add the C library has other results."""
+    libraries = context["libraries"]
+    platform = {name: series(libraries[name]) for name in ("glibc", "Boost")}
+    sets = context.get("instruction_sets", "").split()
+    if sets and "FMA" not in sets:
+        platform["instructions"] = "no-fma"
+    return platform
 
 
 def difference(budgets: pathlib.Path, records: pathlib.Path) -> str:
     """Why the budgets are not of the records' platform; empty where they are."""
-    wanted = dict(
+    base = dict(
         line.split() for line in (budgets / "platform").read_text().splitlines()
     )
-    libraries = json.loads((records / "context.json").read_text())["libraries"]
-    found = {
-        name: series(libraries[name], len(version.split(".")))
-        for name, version in wanted.items()
-    }
-    if found == wanted:
+    found = platform_of(json.loads((records / "context.json").read_text()))
+    if found == base or (budgets / "platforms" / key(found) / "platform").is_file():
         return ""
-    of_budgets, of_records = (
-        " / ".join(f"{name} {version}" for name, version in platform.items())
-        for platform in (wanted, found)
-    )
-    return f"budgets of {of_budgets}, this is {of_records}"
+    return f"budgets of {words(base)}, this is {words(found)}"
 
 
 if __name__ == "__main__":

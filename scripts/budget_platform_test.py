@@ -32,6 +32,23 @@ def test_another_library_is_named(tmp_path, glibc, boost, sentence):
         assert told.startswith("budgets of glibc 2.36 / Boost 1.81, ")
 
 
+def test_a_platform_with_rows_of_its_own_is_no_other(tmp_path):
+    (tmp_path / "platform").write_text("glibc 2.36\nBoost 1.81\n")
+    libraries = {"glibc": "2.41", "Boost": "1.88.0"}
+    context = {"libraries": libraries, "instruction_sets": "AVX AVX2 FMA"}
+    (tmp_path / "context.json").write_text(json.dumps(context))
+    assert budget_platform.difference(tmp_path, tmp_path)
+    own = tmp_path / "platforms/glibc-2.41_boost-1.88"
+    own.mkdir(parents=True)
+    assert budget_platform.difference(tmp_path, tmp_path), "an empty directory"
+    (own / "platform").write_text("glibc 2.41\nBoost 1.88\n")
+    assert not budget_platform.difference(tmp_path, tmp_path)
+    context["instruction_sets"] = "AVX AVX2"
+    (tmp_path / "context.json").write_text(json.dumps(context))
+    told = budget_platform.difference(tmp_path, tmp_path)
+    assert told.endswith("Boost 1.88 / instructions no-fma")
+
+
 def test_the_budgets_name_their_platform():
     names = [
         line.split()[0]

@@ -79,6 +79,12 @@ class AuditedReal {
   friend AuditedReal atan2(const AuditedReal& y, const AuditedReal& x) {
     return AuditedReal(Value(atan2(y.value_, x.value_)));
   }
+  friend AuditedReal ldexp(const AuditedReal& x, int exponent) {
+    return AuditedReal(Value(ldexp(x.value_, exponent)));
+  }
+  friend AuditedReal frexp(const AuditedReal& x, int* exponent) {
+    return AuditedReal(Value(frexp(x.value_, exponent)));
+  }
 
  private:
   Value value_{0};

@@ -28,6 +28,7 @@ from night_common import (
     INCOMPLETE,
     PASS,
     REGRESSION,
+    ROOT,
     Failure,
     lock,
     main_of,
@@ -229,6 +230,7 @@ class Night:
             self.left.insert(0, job)
             return
         self.worst = more_serious(self.worst, CODES[verdict])
+        self.remember(job)
         say(f"{job.name}: {verdict} in {clock(seconds)}{': ' + why if why else ''}")
 
     def judge(self, job, code, child):
@@ -248,6 +250,25 @@ class Night:
         why = f"gate: exit {text.returncode}: {lines[0] if lines else ''} (logs/{job.name}/gate.txt)"
         # Rows that have no budget, or too few samples for one: no verdict is neither a pass nor a failure.
         return "unheld" if text.returncode == INCOMPLETE else "red", why
+
+    def remember(self, job):
+        """Into the history; a file that cannot be written is said and is no fault of the job."""
+        place = self.out / job.name
+        if self.options.history is None or not (place / "context.json").exists():
+            return
+        words = [
+            self.options.ulpgate,
+            "history",
+            "--add",
+            str(place),
+            "--db",
+            self.options.history,
+        ]
+        done = subprocess.run(words, capture_output=True, text=True, cwd=ROOT)
+        if done.returncode != PASS:
+            lines = done.stderr.strip().splitlines()
+            say(f"history: {lines[-1] if lines else f'exit {done.returncode}'}")
+            self.worst = more_serious(self.worst, ENVIRONMENT)
 
     def fail(self, child, code):
         job = child.job
@@ -307,6 +328,8 @@ class Night:
 
 def run(words):
     options = options_of(words, __doc__)
+    if options.history is not None:
+        options.history = os.path.abspath(options.history)
     out = pathlib.Path(os.path.abspath(options.out))
     if options.list:
         seed = options.seed or 0

@@ -64,6 +64,11 @@ def options_of(words, doc):
         help="default: one a core",
     )
     p.add_argument(
+        "--history",
+        metavar="FILE",
+        help="puts every finished job's records into this SQLite file (`ulpgate history`)",
+    )
+    p.add_argument(
         "--list", action="store_true", help="print the jobs in their order, and end"
     )
     program = ROOT / "build/release/harness/app/ulpgate"

@@ -46,10 +46,10 @@ class Advisor {
   [[nodiscard]] Advice run() {
     prepare();
     std::vector<AdviceCurve> curves;
-    for (const auto& choice : case_.choices()) curves.push_back({case_.levels(), case_.guess_s(choice)});
+    for (const auto& choice : case_.choices()) curves.push_back(case_.curve(choice));
     advice_.search = search_advice(
         curves, {o_.error, o_.time_s, o_.search_s},
-        [&](std::size_t curve, int level, double most_s) { return measured(curve, level, most_s); });
+        [&](std::size_t curve, int quarter, double most_s) { return measured(curve, quarter, most_s); });
     advice_.best = advice_.search.best;
     advice_.nearest = advice_.search.nearest;
     if (advice_.best) retime_rivals();
@@ -73,17 +73,22 @@ class Advisor {
     }
   }
 
-  AdvicePoint measured(std::size_t curve, int level, double most_s) {
-    const std::size_t at = look(case_.choices()[curve], level, allowance * most_s + least_allowance_s);
+  AdvicePoint measured(std::size_t curve, int quarter, double most_s) {
+    const std::size_t at = look(case_.choices()[curve], quarter, allowance * most_s + least_allowance_s);
     const AdvicePlace& place = advice_.places[at];
     progress_.update(spent_s_, o_.search_s);
-    return {curve, level, place.row.outcome, place.seconds, place.cut};
+    return {curve, quarter, place.row.outcome, place.seconds, place.cut, case_.wanted()};
   }
 
   // From the records, or measured now.
-  std::size_t look(const AdviceCase::Choice& choice, int level, double most_s) {
+  std::size_t look(const AdviceCase::Choice& choice, int quarter, double most_s) {
     if (interrupted()) throw Failure(Standing::incomplete, "interrupted");
-    auto m = case_.setting(choice, level);
+    auto m = setting_of(choice, quarter);
+    if (!m) {
+      advice_.places.push_back({{}, 0, "", true});
+      settings_.push_back(nullptr);
+      return advice_.places.size() - 1;
+    }
     const auto it = known_.find(m->setting().key());
     AdvicePlace place;
     const bool recorded =
@@ -96,6 +101,18 @@ class Advisor {
     advice_.places.push_back(std::move(place));
     settings_.push_back(std::move(m));
     return advice_.places.size() - 1;
+  }
+
+  // Null where there are no such steps: no plan leads to the end.
+  [[nodiscard]] std::unique_ptr<SettingMeasurement> setting_of(const AdviceCase::Choice& choice,
+                                                               int quarter) const {
+    try {
+      return case_.setting(choice, quarter);
+    } catch (const Failure&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      return nullptr;
+    }
   }
 
   AdvicePlace measure(SettingMeasurement& m, double most_s) {
@@ -151,10 +168,10 @@ class Advisor {
     const auto choice = case_.choices()[point.curve];
     const double error = advice_.places[which].row.outcome.error().value_or(HUGE_VAL);
     std::string text = rounding_or_stepping(choice, point, which, error);
-    if (const auto order = order_between(point, error)) {
+    if (const auto order = order_between(point, which, error)) {
       advice_.measured_order = order;
       const auto method = ode::find_integrator(choice.integrator).order;
-      text += fmt::format("; order {:.2f} measured by halving the step", *order);
+      text += fmt::format("; order {:.2f} measured from coarser steps", *order);
       // Where rounding makes the error, halving tells nothing of the method.
       if (!text.starts_with("rounding") && method &&
           *order < *method - std::max(order_slack, 0.25 * *method) && *order > 0)
@@ -183,7 +200,8 @@ class Advisor {
     if (seconds * wider_slowdown > std::max(longest_explanation_s, o_.time_s))
       return fmt::format("time-stepping or rounding: a run in {} to tell them apart would be too long",
                          *wide);
-    const std::size_t other = look({*wide, choice.integrator}, point.level, longest_explanation_s);
+    const std::size_t other =
+        look({*wide, choice.integrator, choice.steps}, point.quarter, longest_explanation_s);
     const WorkOutcome& o = advice_.places[other].row.outcome;
     if (advice_.places[other].cut)
       return fmt::format("time-stepping or rounding: a run in {} to tell them apart takes too long", *wide);
@@ -195,13 +213,23 @@ class Advisor {
     return fmt::format("time-stepping: {} with the same steps errs by {:.2e} as well", *wide, *o.error());
   }
 
-  // log2 of the ratio of the errors of the level before and of this one.
-  [[nodiscard]] std::optional<double> order_between(const AdvicePoint& point, double error) const {
-    for (const auto& p : advice_.search.points) {
-      if (p.curve != point.curve || p.level != point.level - 1 || !p.outcome.error()) continue;
-      if (*p.outcome.error() > 0 && error > 0) return std::log2(*p.outcome.error() / error);
+  // Between this setting and the one of its curve that has next to half its steps.
+  [[nodiscard]] std::optional<double> order_between(const AdvicePoint& point, std::size_t which,
+                                                    double error) const {
+    const auto steps_of = [&](std::size_t i) {
+      return static_cast<double>(advice_.places[i].row.setting.steps);
+    };
+    constexpr double most = 0.75;
+    std::optional<std::size_t> coarser;
+    for (std::size_t i = 0; i < advice_.search.points.size(); ++i) {
+      const AdvicePoint& p = advice_.search.points[i];
+      const double share = steps_of(i) / steps_of(which);
+      if (p.curve != point.curve || share > most || !p.outcome.error() || !(*p.outcome.error() > 0)) continue;
+      if (!coarser || steps_of(i) > steps_of(*coarser)) coarser = i;
     }
-    return std::nullopt;
+    if (!coarser || !(error > 0)) return std::nullopt;
+    return std::log(*advice_.search.points[*coarser].outcome.error() / error) /
+           std::log(steps_of(which) / steps_of(*coarser));
   }
 
   const AdviceCase& case_;

@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -18,9 +20,12 @@ namespace ulpgate::app {
 
 namespace {
 
-// Trajectories begin with so many steps.
-constexpr std::uint64_t first_steps = 16;
-constexpr int trajectory_levels = 22;
+// Trajectories begin with so many steps, or with those of the coarsest tolerance.
+constexpr std::uint64_t first_steps = 4;
+constexpr int equal_levels = 24;
+// A step's error that is a tenth takes so many times the steps, by the orders that plans are made with.
+constexpr double stiff_growth = 1.78;
+constexpr double smooth_growth = 1.39;
 constexpr int scene_levels = 18;
 constexpr int coarser = 2;
 // Truths and references are good to a tenth of the wanted error, in digits of the case two more.
@@ -45,44 +50,76 @@ double operation_s(const std::string& token) {
   return bits <= 53 ? 1e-9 : (bits <= 64 ? 2e-9 : 3e-8 + 4e-10 * bits);
 }
 
+// About 2^(quarter/4) times the first, a multiple of a sixteenth of the power of two below, so that steps end
+// at many of the times at which runs are compared.
+std::uint64_t steps_of_quarter(int quarter) {
+  const double wanted = static_cast<double>(first_steps) * std::exp2(quarter / 4.0);
+  const auto whole = static_cast<std::uint64_t>(std::llround(wanted));
+  const std::uint64_t unit = std::clamp<std::uint64_t>(std::bit_floor(whole) / 16, 1, compared_parts);
+  return (whole + unit / 2) / unit * unit;
+}
+
+// 1e-3, 5.6e-4, 3.2e-4, 1.8e-4, 1e-4 ...
+double tolerance_of_quarter(int quarter) {
+  constexpr std::array<const char*, quarters_of_level> mantissas = {"1", "5.6", "3.2", "1.8"};
+  const int exponent = 3 + (quarter + quarters_of_level - 1) / quarters_of_level;
+  return std::stod(
+      fmt::format("{}e-{}", mantissas.at(static_cast<std::size_t>(quarter % quarters_of_level)), exponent));
+}
+
 class TrajectoryAdvice final : public AdviceCase {
  public:
   TrajectoryAdvice(const InitialValueInfo& problem, const AdviceOptions& o)
       : problem_(problem),
         end_(end_of_problem(problem, o.until)),
         digits_(std::clamp(static_cast<int>(std::ceil(-std::log10(o.error))) + 2, 15, most_truth_digits)),
-        truth_(shared_truth(problem.name, end_, digits_)) {
+        wanted_(o.along ? AdvicePoint::Wanted::on_the_way : AdvicePoint::Wanted::final),
+        truths_(shared_truths(problem.name, end_, digits_)) {
     for (const auto& type : fine_types(o)) {
-      for (const auto& integrator : select_integrators_of(o.integrators))
-        if (find_trajectory_engine(type)->applies(integrator, problem.name))
-          choices_.push_back({type, integrator});
+      for (const auto& integrator : select_integrators_of(o.integrators)) {
+        if (!find_trajectory_engine(type)->applies(integrator, problem.name)) continue;
+        choices_.push_back({type, integrator, Steps::equal});
+        if (has_plans()) choices_.push_back({type, integrator, Steps::planned});
+      }
     }
   }
 
-  void prepare(const ode::StopFlag& stop) const override { static_cast<void>(truth_->get(stop)); }
-  [[nodiscard]] double guess_s(const Choice& choice) const override {
-    const double size = static_cast<double>(problem_.components);
-    return static_cast<double>(first_steps) * evaluations_of_step(choice.integrator) * (20 + 10 * size) *
-           operation_s(choice.type);
+  void prepare(const ode::StopFlag& stop) const override {
+    for (const auto& truth : {truths_.equal, truths_.graded}) static_cast<void>(truth->get(stop));
   }
-  [[nodiscard]] int levels() const override { return trajectory_levels; }
-  [[nodiscard]] std::unique_ptr<SettingMeasurement> setting(const Choice& choice, int level) const override {
-    const std::uint64_t steps = first_steps << static_cast<unsigned>(level);
-    WorkSetting s{WorkSubject::trajectory,
-                  problem_.name,
-                  choice.type,
-                  choice.integrator,
-                  end_,
-                  "",
-                  steps,
-                  ode::end_time<double>(end_) / static_cast<double>(steps)};
-    return std::make_unique<TrajectorySetting>(std::move(s), *find_trajectory_engine(choice.type), truth_,
+  [[nodiscard]] AdviceCurve curve(const Choice& choice) const override {
+    const double size = static_cast<double>(problem_.components);
+    const double step_s =
+        evaluations_of_step(choice.integrator) * (20 + 10 * size) * operation_s(choice.type);
+    if (choice.steps == Steps::equal) return {equal_levels, static_cast<double>(first_steps) * step_s, 2};
+    const auto decades =
+        static_cast<int>(std::floor(std::log10(coarsest_tolerance / finest_tolerance) + 0.5));
+    const auto steps = graded_plan(problem_.name, end_, coarsest_tolerance).behind.back();
+    return {decades + 1, static_cast<double>(steps) * step_s, problem_.stiff ? stiff_growth : smooth_growth};
+  }
+  [[nodiscard]] std::unique_ptr<SettingMeasurement> setting(const Choice& choice,
+                                                            int quarter) const override {
+    const WorkSetting s =
+        choice.steps == Steps::equal
+            ? equal_setting(problem_.name, choice.type, choice.integrator, end_, steps_of_quarter(quarter))
+            : planned_setting(problem_.name, choice.type, choice.integrator, end_,
+                              tolerance_of_quarter(quarter));
+    return std::make_unique<TrajectorySetting>(s, *find_trajectory_engine(choice.type), truths_.of(s),
                                                default_evaluation_budget);
   }
+  [[nodiscard]] AdvicePoint::Wanted wanted() const override { return wanted_; }
 
+  [[nodiscard]] std::string step_words(const WorkSetting& s) const override {
+    if (!s.planned())
+      return fmt::format("{} equal steps of {:.6g} of the problem's time", s.steps, s.dt_value);
+    return fmt::format("{} steps planned for a tolerance of {}", s.steps, s.dt.substr(plan_mark.size()));
+  }
   [[nodiscard]] std::string error_words() const override {
-    return fmt::format("error of the state at t = {}, relative to its largest component (truth to {} digits)",
-                       end_, digits_);
+    return fmt::format("error of the state at t = {}{}, {} (truth to {} digits)", end_,
+                       wanted_ == AdvicePoint::Wanted::final ? "" : " and on the way",
+                       problem_.stiff ? "of each component relative to itself, the largest of them"
+                                      : "relative to its largest component",
+                       digits_);
   }
   [[nodiscard]] std::string kink_words(const std::string& integrator) const override {
     if (!problem_.stiff)
@@ -94,18 +131,28 @@ class TrajectoryAdvice final : public AdviceCase {
   [[nodiscard]] std::string contact_words(const WorkSetting& /*setting*/) const override { return ""; }
   [[nodiscard]] std::string run_command(const WorkSetting& s) const override {
     std::string words =
-        fmt::format("ulpgate work-precision --cases {} --integrators {} --types {} --steps {}", s.name,
-                    s.integrator, s.type, s.steps);
+        fmt::format("ulpgate work-precision --cases {} --integrators {} --types {} {}", s.name, s.integrator,
+                    s.type, s.planned() ? "--dt " + s.dt : fmt::format("--steps {}", s.steps));
     if (end_ != problem_.ends.front()) words += fmt::format(" --until '{}'", end_);
-    return words + (digits_ > 30 ? fmt::format(" --digits {}", digits_) : "");
+    return words + (digits_ > default_digits({s.type}) ? fmt::format(" --digits {}", digits_) : "");
   }
   [[nodiscard]] std::string measure_command(const WorkSetting& s) const override { return run_command(s); }
 
  private:
+  [[nodiscard]] bool has_plans() const {
+    try {
+      static_cast<void>(graded_plan(problem_.name, end_, coarsest_tolerance));
+      return true;
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+  }
+
   const InitialValueInfo& problem_;
   std::string end_;
   int digits_;
-  SharedTruth truth_;
+  AdvicePoint::Wanted wanted_;
+  ProblemTruths truths_;
 };
 
 class SceneAdvice final : public AdviceCase {
@@ -115,7 +162,7 @@ class SceneAdvice final : public AdviceCase {
     ReferenceRequest request;
     request.scene = ladder_.scene;
     // It is made finer until it is good enough, and no finer.
-    request.finest_steps = ladder_.steps.front();
+    request.finest_steps = ladder_.rungs.front().steps;
     request.instants = ladder_.instants;
     request.bits = static_cast<long>(std::ceil(-std::log2(o.error))) + 16;
     request.wanted_error = reference_share * o.error;
@@ -123,7 +170,7 @@ class SceneAdvice final : public AdviceCase {
     reference_ = shared_reference(request);
     for (const auto& type : fine_types(o)) {
       for (const auto& integrator : admitted(ladder_, select_integrators_of(o.integrators)))
-        choices_.push_back({type, integrator});
+        choices_.push_back({type, integrator, Steps::equal});
     }
     size_m_ = scene_size(*rough_engine());
     smooth_ = admits(ladder_.scene, rough_type(), "velocity_verlet");
@@ -131,7 +178,7 @@ class SceneAdvice final : public AdviceCase {
 
   void prepare(const ode::StopFlag& stop) const override { static_cast<void>(reference_->get(stop)); }
   // A few steps are taken: what a step costs is measured, what its error is is not assumed.
-  [[nodiscard]] double guess_s(const Choice& choice) const override {
+  [[nodiscard]] AdviceCurve curve(const Choice& choice) const override {
     using Clock = std::chrono::steady_clock;
     SceneRequest scene = ladder_.scene;
     scene.integrator = choice.integrator;
@@ -141,12 +188,18 @@ class SceneAdvice final : public AdviceCase {
     const auto start = Clock::now();
     engine->step(probe);
     const double step_s = std::chrono::duration<double>(Clock::now() - start).count() / probe;
-    return step_s * static_cast<double>(ladder_.steps.front());
+    return {static_cast<int>(ladder_.rungs.size()), step_s * static_cast<double>(ladder_.rungs.front().steps),
+            2};
   }
-  [[nodiscard]] int levels() const override { return static_cast<int>(ladder_.dts.size()); }
-  [[nodiscard]] std::unique_ptr<SettingMeasurement> setting(const Choice& choice, int level) const override {
-    return scene_setting(ladder_, static_cast<std::size_t>(level), choice.type, choice.integrator,
-                         reference_);
+  [[nodiscard]] std::unique_ptr<SettingMeasurement> setting(const Choice& choice,
+                                                            int quarter) const override {
+    return scene_setting(ladder_, rung_between(ladder_, static_cast<double>(quarter) / quarters_of_level),
+                         choice.type, choice.integrator, reference_);
+  }
+  [[nodiscard]] AdvicePoint::Wanted wanted() const override { return AdvicePoint::Wanted::on_the_way; }
+
+  [[nodiscard]] std::string step_words(const WorkSetting& s) const override {
+    return fmt::format("{} steps of {:.6g} s", s.steps, s.dt_value);
   }
 
   [[nodiscard]] std::string error_words() const override {
@@ -171,9 +224,9 @@ class SceneAdvice final : public AdviceCase {
       words.push_back(fmt::format("{:.3g} steps a contact (t_c = {:g} s)", *t_c / s.dt_value, *t_c));
     const auto engine = rough_engine();
     for (const auto* name : {"stiffness", "rayleigh"}) {
-      const double critical = engine->critical_step(name);
-      if (std::isfinite(critical) && critical > 0)
-        words.push_back(fmt::format("{:.2g} of the critical step by {}", s.dt_value / critical, name));
+      const dem::CriticalStep critical = engine->critical_step(name);
+      if (critical.refusal.empty() && std::isfinite(critical.step_s) && critical.step_s > 0)
+        words.push_back(fmt::format("{:.2g} of the critical step by {}", s.dt_value / critical.step_s, name));
     }
     return fmt::format("{}", fmt::join(words, ", "));
   }

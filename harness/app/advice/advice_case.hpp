@@ -19,6 +19,7 @@ struct AdviceOptions {
   std::string types = "all";
   std::string integrators = "all";
   std::string until;
+  bool along = false;  // a problem's error is to be below the one wanted on the way, too
   std::vector<std::string> overrides;
   std::string records;  // directory
   std::string out;
@@ -33,22 +34,30 @@ class AdviceCase {
   AdviceCase& operator=(const AdviceCase&) = delete;
   virtual ~AdviceCase() = default;
 
+  enum class Steps {
+    equal,    // quarter q: about 2^(q/4) times as many as quarter 0
+    planned,  // of trajectories, quarter q: for a tolerance of 10^-(3 + q/4)
+  };
   struct Choice {
     std::string type;
     std::string integrator;
+    Steps steps = Steps::equal;
   };
-  // By what a step costs, the cheapest first.
+  // The narrowest type first.
   [[nodiscard]] const std::vector<Choice>& choices() const { return choices_; }
   // Makes what settings are held against.  Throws std::runtime_error where there is no truth, and
   // ode::Stopped.
   virtual void prepare(const ode::StopFlag& stop) const = 0;
-  // Seconds of level 0 of a choice, roughly.
-  [[nodiscard]] virtual double guess_s(const Choice& choice) const = 0;
-  [[nodiscard]] virtual int levels() const = 0;
-  // Level k has 2^k times the steps of level 0.
+  // Levels of a choice, seconds of the first and what each costs more, roughly.
+  [[nodiscard]] virtual AdviceCurve curve(const Choice& choice) const = 0;
+  // Throws std::runtime_error where there are no such steps.
   [[nodiscard]] virtual std::unique_ptr<SettingMeasurement> setting(const Choice& choice,
-                                                                    int level) const = 0;
+                                                                    int quarter) const = 0;
+  // Which of a setting's errors is to be below the one wanted.
+  [[nodiscard]] virtual AdvicePoint::Wanted wanted() const = 0;
 
+  // "1024 equal steps of 0.0061 (time of the problem)"
+  [[nodiscard]] virtual std::string step_words(const WorkSetting& setting) const = 0;
   // "largest position error, relative to the scene's size of 0.08 m, up to t = 1 s"
   [[nodiscard]] virtual std::string error_words() const = 0;
   // Why an order may be lost here.

@@ -17,6 +17,7 @@ Json place_json(const AdvicePlace& p) {
   const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
   Json j = {{"type", s.type}, {"integrator", s.integrator}, {"steps", s.steps}, {"dt", s.dt_value}};
   if (!s.dt.empty()) j["dt_text"] = s.dt;
+  if (s.planned()) j["planned"] = true;
   j["failure"] = o.failure == WorkFailure::none ? Json(nullptr) : Json(to_string(o.failure));
   if (!o.why.empty()) j["why"] = o.why;
   j["final_error"] = number(o.final_error);
@@ -30,7 +31,8 @@ Json place_json(const AdvicePlace& p) {
 }
 
 std::string curve_words(const AdviceCase::Choice& choice) {
-  return choice.type + " " + choice.integrator;
+  return choice.type + " " + choice.integrator +
+         (choice.steps == AdviceCase::Steps::planned ? " planned" : "");
 }
 
 // The front of what was looked at, and how each curve ended.
@@ -41,8 +43,8 @@ void print_looked_at(const Advice& advice, const AdviceCase& c) {
   fmt::print("Pareto front of the {} settings looked at:\n", points.size());
   for (const auto i : pareto_front(points)) {
     const WorkSetting& s = advice.places[i].row.setting;
-    fmt::print("  {:<16} {:<20} {:>9} steps  error {:.2e}  {:>10}\n", s.type, s.integrator, s.steps,
-               points[i].error, shown_time(points[i].seconds));
+    fmt::print("  {:<16} {:<22} {:>9} steps  error {:.2e}  {:>10}{}\n", s.type, s.integrator, s.steps,
+               points[i].error, shown_time(points[i].seconds), s.planned() ? "  " + s.dt : "");
   }
   std::map<std::string, std::vector<std::string>> ends;
   for (std::size_t k = 0; k < c.choices().size(); ++k) {
@@ -85,6 +87,7 @@ Json advice_json(const Advice& advice, const AdviceCase& c, const AdviceOptions&
   for (std::size_t k = 0; k < c.choices().size(); ++k) {
     j["curves"].push_back({{"type", c.choices()[k].type},
                            {"integrator", c.choices()[k].integrator},
+                           {"planned", c.choices()[k].steps == AdviceCase::Steps::planned},
                            {"ended", to_string(advice.search.ends[k])}});
   }
   return j;
@@ -99,12 +102,15 @@ void print_advice(const Advice& advice, const AdviceCase& c, const AdviceOptions
     const AdvicePlace& p = advice.places[*which];
     const WorkSetting& s = p.row.setting;
     const WorkOutcome& w = p.row.outcome;
-    fmt::print("{}: {} {}, {} steps of {}\n", advice.best ? "cheapest" : "none meets it; the nearest", s.type,
-               s.integrator, s.steps, s.dt.empty() ? fmt::format("{:.6g}", s.dt_value) : s.dt + " s");
-    fmt::print("  error {:.3e}, sure to {:.1e}; {} a run (noise {:.1f} %), {} evaluations\n",
-               std::max(w.error().value_or(HUGE_VAL), w.largest_error.value_or(0)),
-               w.reference_error.value_or(0), shown_time(p.seconds), 100 * advice.times.noise(),
-               w.evaluations);
+    fmt::print("{}: {} {}, {}\n", advice.best ? "cheapest of those measured" : "none meets it; the nearest",
+               s.type, s.integrator, c.step_words(s));
+    fmt::print(
+        "  error {:.3e} at the end, {:.3e} the largest at {} times on the way; the truth is good to {:.1e}\n",
+        w.error().value_or(HUGE_VAL), w.largest_error.value_or(HUGE_VAL), w.instants.value_or(1),
+        w.reference_error.value_or(0));
+    fmt::print("  {} a run (noise {:.1f} %), {} evaluations{}\n", shown_time(p.seconds),
+               100 * advice.times.noise(), w.evaluations,
+               s.planned() ? "; finding the steps, once in double, not counted" : "");
     fmt::print("  limited by {}\n", advice.limit);
     if (const std::string contacts = c.contact_words(s); !contacts.empty()) fmt::print("  {}\n", contacts);
     fmt::print("  run:            {}\n", c.run_command(s));

@@ -21,10 +21,9 @@ double dt_of(const SceneJob& job) {
   return engine->time_s();
 }
 
-struct Rung {
-  std::string dt;
+struct TimedRung {
+  SceneRung rung;
   double dt_s;
-  std::uint64_t steps;
 };
 
 SceneJob job_at(SceneRequest request, const std::string& dt) {
@@ -41,36 +40,38 @@ std::uint64_t whole_steps(double until_s, double dt_s, const std::string& dt) {
   return static_cast<std::uint64_t>(steps);
 }
 
-std::vector<Rung> rungs_of_list(const SceneRequest& base, const std::string& list, double until_s) {
-  std::vector<Rung> rungs;
+std::vector<TimedRung> rungs_of_list(const SceneRequest& base, const std::string& list, double until_s) {
+  std::vector<TimedRung> rungs;
   for (const auto& dt : split(list, ',')) {
     const double dt_s = dt_of(job_at(base, dt));
-    rungs.push_back({dt, dt_s, whole_steps(until_s, dt_s, dt)});
+    rungs.push_back({{dt, whole_steps(until_s, dt_s, dt)}, dt_s});
   }
   if (rungs.empty()) throw Failure(Standing::bad_input, fmt::format("--dt '{}': names no step", list));
-  std::ranges::stable_sort(rungs, {}, &Rung::steps);
-  for (const auto& rung : rungs) {
-    const double end = static_cast<double>(rung.steps) * rung.dt_s;
-    const double first = static_cast<double>(rungs.front().steps) * rungs.front().dt_s;
+  std::ranges::stable_sort(rungs, {}, [](const auto& r) { return r.rung.steps; });
+  const SceneRung& coarsest = rungs.front().rung;
+  const double first = static_cast<double>(coarsest.steps) * rungs.front().dt_s;
+  for (const auto& [rung, dt_s] : rungs) {
+    const double end = static_cast<double>(rung.steps) * dt_s;
     if (std::fabs(end - first) <= 1e-9 * first) continue;
     throw Failure(
         Standing::bad_input,
         fmt::format("--dt '{}': {} steps of {} end at {} s and {} of {} at {} s: errors are of one time; "
                     "give another --until",
-                    list, rungs.front().steps, rungs.front().dt, first, rung.steps, rung.dt, end));
+                    list, coarsest.steps, coarsest.dt, first, rung.steps, rung.dt, end));
   }
   return rungs;
 }
 
-std::vector<Rung> halved_rungs(const SceneRequest& base, const std::string& own, double until_s, int coarser,
-                               int finer) {
-  std::vector<Rung> rungs;
+std::vector<TimedRung> halved_rungs(const SceneRequest& base, const std::string& own, double until_s,
+                                    int coarser, int finer) {
+  std::vector<TimedRung> rungs;
   const double dt_s = dt_of(job_at(base, own));
   // A run of few steps of the scene's own has none so coarse.
   while (coarser > 0 && until_s < std::ldexp(dt_s, coarser) * 8) --coarser;
   const std::uint64_t coarsest = whole_steps(until_s, std::ldexp(dt_s, coarser), scaled_dt(own, coarser));
   for (int k = coarser; k >= -finer; --k)
-    rungs.push_back({scaled_dt(own, k), std::ldexp(dt_s, k), coarsest << static_cast<unsigned>(coarser - k)});
+    rungs.push_back(
+        {{scaled_dt(own, k), coarsest << static_cast<unsigned>(coarser - k)}, std::ldexp(dt_s, k)});
   return rungs;
 }
 
@@ -96,16 +97,17 @@ SceneLadder scene_ladder(const std::string& name, const std::vector<std::string>
   const double until_s = until.empty() ? default_until_s(job) : dt_of(job) * static_cast<double>(job.steps);
   const auto rungs = dt.empty() ? halved_rungs(base, job.loaded.scene.dt, until_s, coarser, finer)
                                 : rungs_of_list(base, dt, until_s);
-  for (const auto& rung : rungs) {
-    ladder.dts.push_back(rung.dt);
-    ladder.steps.push_back(rung.steps);
+  std::vector<std::uint64_t> steps;
+  for (const auto& [rung, dt_s] : rungs) {
+    ladder.rungs.push_back(rung);
+    steps.push_back(rung.steps);
   }
   ladder.scene = base;
-  ladder.scene.dt = rungs.front().dt;
-  ladder.scene.steps = std::to_string(rungs.front().steps);
-  ladder.until_s = static_cast<double>(rungs.front().steps) * rungs.front().dt_s;
+  ladder.scene.dt = ladder.rungs.front().dt;
+  ladder.scene.steps = std::to_string(steps.front());
+  ladder.until_s = static_cast<double>(steps.front()) * rungs.front().dt_s;
   ladder.end = fmt::format("{:.12g}", ladder.until_s);
-  ladder.instants = instants_of(job, dt_of(job), ladder.steps, ladder.until_s);
+  ladder.instants = instants_of(job, dt_of(job), steps, ladder.until_s);
   return ladder;
 }
 
@@ -116,20 +118,31 @@ std::vector<std::string> admitted(const SceneLadder& ladder, const std::vector<s
   return found;
 }
 
-std::unique_ptr<SceneSetting> scene_setting(const SceneLadder& ladder, std::size_t k, const std::string& type,
-                                            const std::string& integrator, const SharedReference& reference) {
+SceneRung rung_between(const SceneLadder& ladder, double halvings) {
+  const SceneRung& coarsest = ladder.rungs.front();
+  const auto every = static_cast<double>(ladder.instants.records);
+  const double wanted = static_cast<double>(coarsest.steps) * std::exp2(halvings);
+  const auto steps = static_cast<std::uint64_t>(every * std::max(1.0, std::round(wanted / every)));
+  for (const auto& rung : ladder.rungs)
+    if (rung.steps == steps) return rung;
+  return {fmt::format("{}*{}/{}", scaled_dt(coarsest.dt, 0), coarsest.steps, steps), steps};
+}
+
+std::unique_ptr<SceneSetting> scene_setting(const SceneLadder& ladder, const SceneRung& rung,
+                                            const std::string& type, const std::string& integrator,
+                                            const SharedReference& reference) {
   SceneRequest scene = ladder.scene;
-  scene.dt = ladder.dts[k];
-  scene.steps = std::to_string(ladder.steps[k]);
+  scene.dt = rung.dt;
+  scene.steps = std::to_string(rung.steps);
   scene.integrator = integrator;
   WorkSetting s{WorkSubject::scene,
                 make_job(scene).loaded.scene.name,
                 type,
                 integrator,
                 ladder.end,
-                ladder.dts[k],
-                ladder.steps[k],
-                ladder.until_s / static_cast<double>(ladder.steps[k])};
+                rung.dt,
+                rung.steps,
+                ladder.until_s / static_cast<double>(rung.steps)};
   return std::make_unique<SceneSetting>(std::move(s), std::move(scene), ladder.instants, reference);
 }
 

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "harness/app/shell/selection.hpp"
 #include "harness/core/scenes/chain_angles.hpp"
 #include "harness/core/scenes/correlation.hpp"
 #include "harness/core/subject/registry.hpp"
 #include "harness/core/work_precision/trajectory_setting.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
+#include "reference/text/text.hpp"
 
 namespace ulpgate::app {
 
@@ -124,6 +126,14 @@ class ReferenceRuns {
 
 }  // namespace
 
+std::string ReferenceRequest::key() const {
+  return fmt::format(
+      "scene reference of {}\ndt {} steps {} finest {} positions {} records {} angles {} bits {} "
+      "wanted {:a} most steps {} work {:a}",
+      load_scene(scene.name, scene.overrides).text, *scene.dt, *scene.steps, finest_steps, instants.positions,
+      instants.records, instants.angles, bits, wanted_error, most_steps, most_work);
+}
+
 const std::string& rough_type() {
   const RealDescriptor* type = find_type("double");
   return type != nullptr ? type->token : all_types().front().token;
@@ -209,9 +219,60 @@ bool admits(const SceneRequest& scene, const std::string& token, const std::stri
   }
 }
 
-SharedReference shared_reference(ReferenceRequest request) {
+std::vector<std::string> SceneReference::to_lines() const {
+  std::vector<std::string> lines = {fmt::format("r {} {} {}", to_hexfloat(size_m), to_hexfloat(error), text)};
+  for (const auto& instant : view.positions) {
+    std::string line = "p";
+    for (const auto& x : instant) line += fmt::format(" {}:{}", mpfr_get_prec(x.get()), to_hexfloat(x.get()));
+    lines.push_back(std::move(line));
+  }
+  std::string products = "a";
+  for (const double x : view.products) products += " " + to_hexfloat(x);
+  lines.push_back(std::move(products));
+  return lines;
+}
+
+std::optional<SceneReference> SceneReference::from_lines(const std::vector<std::string>& lines) {
+  SceneReference r;
+  try {
+    for (const auto& line : lines) {
+      auto words = split(line, ' ');
+      if (words.front() == "r" && words.size() > 3) {
+        r.size_m = parse_real<double>(words[1]);
+        r.error = parse_real<double>(words[2]);
+        r.text = line.substr(words[0].size() + words[1].size() + words[2].size() + 3);
+      } else if (words.front() == "p") {
+        auto& instant = r.view.positions.emplace_back();
+        for (std::size_t i = 1; i < words.size(); ++i) {
+          const std::size_t colon = words[i].find(':');
+          auto& x = instant.emplace_back(std::stol(words[i].substr(0, colon)));
+          const std::string number = words[i].substr(colon + 1);
+          char* end = nullptr;
+          if (mpfr_strtofr(x, number.c_str(), &end, 0, MPFR_RNDN) != 0 || *end != '\0') return std::nullopt;
+        }
+      } else if (words.front() == "a") {
+        for (std::size_t i = 1; i < words.size(); ++i)
+          r.view.products.push_back(parse_real<double>(words[i]));
+      }
+    }
+  } catch (const std::logic_error&) {
+    return std::nullopt;
+  }
+  return r.text.empty() || r.view.positions.empty() ? std::nullopt : std::optional(std::move(r));
+}
+
+SharedReference shared_reference(ReferenceRequest request, KeptPlace kept) {
   return std::make_shared<Shared<SceneReference>>(
-      [request = std::move(request)](const ode::StopFlag& stop) { return ReferenceRuns(request).run(stop); });
+      [request = std::move(request), kept = std::move(kept)](const ode::StopFlag& stop) {
+        if (!kept || !*kept) return ReferenceRuns(request).run(stop);
+        const std::string key = request.key();
+        if (const auto lines = (*kept)->find(key)) {
+          if (auto found = SceneReference::from_lines(*lines)) return std::move(*found);
+        }
+        SceneReference made = ReferenceRuns(request).run(stop);
+        (*kept)->keep(key, made.to_lines());
+        return made;
+      });
 }
 
 }  // namespace ulpgate::app

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/app/scenes/scene_job.hpp"
+#include "harness/app/store/kept_results.hpp"
 #include "harness/core/work_precision/setting_measurement.hpp"
 
 namespace ulpgate::app {
@@ -45,7 +46,14 @@ struct SceneReference {
   // Largest distance between the two finest runs, relative to the size: what the reference may be wrong by.
   double error = 0;
   std::string text;  // "sofroniou_spaletta10, dt = 1e-5/8, RealHP<4> of float"
+
+  // Exact: what is read back gives the same records.
+  [[nodiscard]] std::vector<std::string> to_lines() const;
+  // Nothing where the lines are none.
+  [[nodiscard]] static std::optional<SceneReference> from_lines(const std::vector<std::string>& lines);
 };
+// Where a run keeps its references; empty where it has no directory.
+using KeptPlace = std::shared_ptr<std::optional<KeptResults>>;
 using SharedReference = std::shared_ptr<Shared<SceneReference>>;
 
 inline constexpr double most_reference_work = 4e7;  // evaluations of a body
@@ -58,11 +66,14 @@ struct ReferenceRequest {
   // By the leapfrog, which converges slowly, no more steps than this; 0: as many as it takes.
   std::uint64_t most_steps = 0;
   double most_work = most_reference_work;
+
+  // All that the reference depends on.
+  [[nodiscard]] std::string key() const;
 };
 // The first level of precision whose RealHP<4> has enough bits runs the scene with the integrator of highest
 // order that it admits, halving the step until two runs agree to the wanted error or the next would be more
 // than most_work.  Where only the leapfrog applies, from a quarter of the finest step on.
-[[nodiscard]] SharedReference shared_reference(ReferenceRequest request);
+[[nodiscard]] SharedReference shared_reference(ReferenceRequest request, KeptPlace kept = {});
 
 // "1e-5*4", "1e-5", "1e-5/8": a step 2^k times as large.
 [[nodiscard]] std::string scaled_dt(const std::string& dt, int k);

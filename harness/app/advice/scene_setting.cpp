@@ -148,6 +148,7 @@ void SceneSetting::judge(const SceneView& view, WorkOutcome& o, const ode::StopF
   }
   o.final_error = errors.back();
   o.largest_error = largest;
+  o.instants = errors.size();
   o.reference_error = reference.error;
   const double until_s = setting().dt_value * static_cast<double>(setting().steps);
   o.growth_rate = growth_of(errors, until_s);

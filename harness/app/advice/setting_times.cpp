@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "harness/app/machine/environment.hpp"
+#include "harness/app/run/baseline.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
+#include "harness/core/trend/interleaved_order.hpp"
 #include "harness/core/watch/heartbeat.hpp"
 
 namespace ulpgate::app {
@@ -18,21 +20,11 @@ using Clock = std::chrono::steady_clock;
 
 // A sample of less is of too few ticks.
 constexpr double least_sample_s = 2e-3;
+constexpr int baseline_operations = 400'000;
 constexpr auto keep_interval = std::chrono::seconds(5);
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Fixed work of dependent operations: its time tells how steady the machine is, and nothing of the subjects.
-double baseline_sample() {
-  const auto start = Clock::now();
-  double x = 0.5;
-  for (int i = 0; i < 400'000; ++i) x = 3.75 * x * (1 - x);
-  // So that nobody finds out that the result is not needed.
-  volatile double sink = x;
-  static_cast<void>(sink);
-  return seconds_since(start);
 }
 
 class TimedRounds {
@@ -71,7 +63,7 @@ class TimedRounds {
     const bool once =
         !samples.empty() && samples.front() * static_cast<double>(setting.parts_of_repeat()) > single_run_s;
     if (once || samples.size() >= round) return;
-    times_.baseline_s.push_back(baseline_sample());
+    times_.baseline_s.push_back(baseline_sample_s(baseline_operations));
     add(samples, in_checked_environment([&] { return sample_of(setting, stop); }));
   }
 

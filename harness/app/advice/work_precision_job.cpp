@@ -11,7 +11,6 @@
 #include "harness/core/arguments/random_words.hpp"
 #include "harness/core/work_precision/subject_setting.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
-#include "kernels/ode/problems/initial_value_cases.hpp"
 
 namespace ulpgate::app {
 
@@ -77,10 +76,16 @@ double cost_of_operation(const std::string& token) {
 
 class JobMaker {
  public:
-  explicit JobMaker(const WorkPrecisionOptions& o) : o_(o) { job_.types = select_types(o.types); }
+  explicit JobMaker(const WorkPrecisionOptions& o) : o_(o) {
+    job_.types = select_types(o.types);
+    job_.kept = std::make_shared<std::optional<KeptResults>>();
+    digits_ = o.digits > 0 ? o.digits : default_digits(job_.types);
+  }
 
   [[nodiscard]] WorkPrecisionJob make() {
     const Selected s = select(o_);
+    dts_ = dt_choices(o_.dt);
+    refuse_unused(s);
     integrators_ = select_integrators_of(o_.integrators);
     for (const auto& list : {s.functions, s.kernels}) {
       for (const auto& name : list) {
@@ -94,8 +99,8 @@ class JobMaker {
     if (job_.settings.empty())
       throw Failure(Standing::incomplete, "no integrator of --integrators applies to any of the cases");
     job_.plan_text =
-        fmt::format("ulpgate work-precision plan 1\ntypes {}\nsamples {} digits {} budget {:a}\n",
-                    fmt::join(job_.types, " "), o_.samples, o_.digits, o_.budget);
+        fmt::format("ulpgate work-precision plan 2\ntypes {}\nsamples {} digits {} budget {:a}\n",
+                    fmt::join(job_.types, " "), o_.samples, digits_, o_.budget);
     if (!o_.overrides.empty()) job_.plan_text += fmt::format("set {}\n", fmt::join(o_.overrides, " "));
     for (const auto& text : scene_texts_) job_.plan_text += fmt::format("scene {:016x}\n", fnv1a(text));
     for (const auto* m : job_.settings) job_.plan_text += m->setting().key() + "\n";
@@ -104,6 +109,19 @@ class JobMaker {
   }
 
  private:
+  // An option that nothing would use was meant for something.
+  void refuse_unused(const Selected& s) const {
+    const auto refuse = [](bool unused, const std::string& option, const char* why) {
+      if (unused) throw Failure(Standing::bad_input, option + ": " + why);
+    };
+    refuse(!o_.steps.empty() && s.problems.empty(), "--steps", "no initial value problem is among the cases");
+    refuse(!dts_.tolerances.empty() && s.problems.empty(), "--dt plan",
+           "steps are planned for initial value problems, and none is among the cases");
+    refuse(!dts_.of_scenes.empty() && s.scenes.empty(), "--dt",
+           "no scene is among the cases; problems have --steps 1024 or --dt plan:1e-6");
+    refuse(!o_.overrides.empty() && s.scenes.empty(), "--set", "no scene is among the cases");
+  }
+
   void add(std::unique_ptr<SettingMeasurement> m, double cost) {
     const std::string curve = m->setting().curve();
     if (curve != curve_) ++group_;
@@ -115,45 +133,45 @@ class JobMaker {
 
   void add_problem(const InitialValueInfo& problem) {
     const std::string end = end_of_problem(problem, o_.until);
-    const std::string text = o_.steps.empty() ? (problem.stiff ? "16..4096" : "128..65536") : o_.steps;
-    const auto steps = step_list(text);
-    const SharedTruth truth = shared_truth(problem.name, end, o_.digits);
+    // Stiff problems change fast at first and slowly later: equal steps are too long for one or too many for
+    // the other.
+    const bool planned = !dts_.tolerances.empty() || (problem.stiff && o_.steps.empty());
+    const auto tolerances =
+        !planned || !dts_.tolerances.empty() ? dts_.tolerances : dt_choices("plan:1e-3..1e-12").tolerances;
+    const auto steps =
+        planned ? std::vector<std::uint64_t>() : step_list(o_.steps.empty() ? "128..65536" : o_.steps);
+    const ProblemTruths truths = kept_truths(problem.name, end, digits_, job_.kept);
     for (const auto& integrator : integrators_) {
       for (const auto& type : job_.types) {
         const TrajectoryEngine& engine = *find_trajectory_engine(type);
         if (!engine.applies(integrator, problem.name)) continue;
-        for (const auto n : steps) {
-          WorkSetting s{WorkSubject::trajectory,
-                        problem.name,
-                        type,
-                        integrator,
-                        end,
-                        "",
-                        n,
-                        ode::end_time<double>(end) / static_cast<double>(n)};
-          add(std::make_unique<TrajectorySetting>(std::move(s), engine, truth, o_.budget),
-              cost_of_operation(type) * evaluations_of_step(integrator));
-        }
+        const double cost = cost_of_operation(type) * evaluations_of_step(integrator);
+        const auto add_setting = [&](const WorkSetting& s) {
+          add(std::make_unique<TrajectorySetting>(s, engine, truths.of(s), o_.budget), cost);
+        };
+        for (const auto n : steps) add_setting(equal_setting(problem.name, type, integrator, end, n));
+        for (const double t : tolerances)
+          add_setting(planned_setting(problem.name, type, integrator, end, t));
       }
     }
   }
 
   void add_scene(const std::string& name) {
-    const SceneLadder ladder = scene_ladder(name, o_.overrides, o_.dt, o_.until, coarser, finer);
+    const SceneLadder ladder = scene_ladder(name, o_.overrides, dts_.of_scenes, o_.until, coarser, finer);
     scene_texts_.push_back(load_scene(name, o_.overrides).text);
     ReferenceRequest request;
     request.scene = ladder.scene;
-    request.finest_steps = ladder.steps.back();
+    request.finest_steps = ladder.rungs.back().steps;
     request.most_steps = 16 * request.finest_steps;
     request.instants = ladder.instants;
     for (const auto& type : job_.types)
       request.bits = std::max<long>(request.bits, type_or_fail(type).significand_bits);
     request.wanted_error = std::ldexp(1e-3, static_cast<int>(-request.bits));
-    const SharedReference reference = shared_reference(request);
+    const SharedReference reference = shared_reference(request, job_.kept);
     for (const auto& integrator : admitted(ladder, integrators_)) {
       for (const auto& type : job_.types) {
-        for (std::size_t k = 0; k < ladder.dts.size(); ++k) {
-          add(scene_setting(ladder, k, type, integrator, reference),
+        for (const auto& rung : ladder.rungs) {
+          add(scene_setting(ladder, rung, type, integrator, reference),
               10 * cost_of_operation(type) * evaluations_of_step(integrator));
         }
       }
@@ -164,6 +182,8 @@ class JobMaker {
   WorkPrecisionJob job_;
   std::vector<std::string> integrators_;
   std::vector<std::string> scene_texts_;
+  DtChoices dts_;
+  int digits_ = 0;
   std::string curve_;
   std::size_t group_ = 0;
 };
@@ -172,56 +192,6 @@ class JobMaker {
 
 WorkPrecisionJob make_work_precision_job(const WorkPrecisionOptions& o) {
   return JobMaker(o).make();
-}
-
-std::vector<std::string> problem_names() {
-  std::vector<std::string> names;
-  for (const auto& p : initial_value_problems()) names.push_back(p.name);
-  return names;
-}
-
-const InitialValueInfo* find_problem(const std::string& name) {
-  const auto& all = initial_value_problems();
-  const auto it = std::ranges::find(all, name, &InitialValueInfo::name);
-  return it == all.end() ? nullptr : &*it;
-}
-
-std::vector<std::string> select_integrators_of(const std::string& text) {
-  std::vector<std::string> known;
-  for (const auto& i : ode::integrators()) known.push_back(i.name);
-  if (text == "all") return known;
-  const auto chosen = split(text, ',');
-  for (const auto& name : chosen) {
-    if (std::ranges::find(known, name) == known.end()) unknown_name("integrator", name, known);
-  }
-  if (chosen.empty()) throw Failure(Standing::bad_input, "--integrators names no integrator");
-  std::erase_if(known, [&](const auto& name) { return std::ranges::find(chosen, name) == chosen.end(); });
-  return known;
-}
-
-std::string end_of_problem(const InitialValueInfo& problem, const std::string& until) {
-  if (until.empty()) return problem.ends.front();
-  if (std::ranges::find(problem.ends, until) != problem.ends.end()) return until;
-  throw Failure(Standing::bad_input, fmt::format("--until '{}': {} has the ends {}", until, problem.name,
-                                                 fmt::join(problem.ends, ", ")));
-}
-
-std::vector<std::uint64_t> step_list(const std::string& text) {
-  std::vector<std::uint64_t> steps;
-  for (const auto& word : split(text, ',')) {
-    const auto dots = word.find("..");
-    const std::uint64_t first = parse_steps("--steps", word.substr(0, dots));
-    const std::uint64_t last =
-        dots == std::string::npos ? first : parse_steps("--steps", word.substr(dots + 2));
-    if (last < first)
-      throw Failure(Standing::bad_input, fmt::format("--steps '{}': ends before it begins", word));
-    for (std::uint64_t n = first; n <= last; n *= 2) steps.push_back(n);
-  }
-  if (steps.empty()) throw Failure(Standing::bad_input, fmt::format("--steps '{}': names no number", text));
-  std::ranges::sort(steps);
-  const auto again = std::ranges::unique(steps);
-  steps.erase(again.begin(), again.end());
-  return steps;
 }
 
 }  // namespace ulpgate::app

@@ -8,6 +8,7 @@
 
 #include "harness/app/advice/scene_setting.hpp"
 #include "harness/app/orders/measurement_run.hpp"
+#include "harness/app/store/kept_results.hpp"
 #include "harness/core/work_precision/trajectory_setting.hpp"
 
 namespace ulpgate::app {
@@ -17,12 +18,13 @@ struct WorkPrecisionOptions {
   std::string cases;     // problems, scenes built in or files of scenes
   std::string types = "double";
   std::string integrators = "all";
-  std::string steps;                   // of trajectories: "64,128" or "64..4096", which doubles
-  std::string dt;                      // of scenes, s: texts, comma-separated
+  std::string steps;  // of trajectories: "64,128" or "64..4096", which doubles
+  // Of scenes: texts, s.  Of trajectories "plan:1e-6" or "plan:1e-3..1e-12", by decades.  Comma-separated.
+  std::string dt;
   std::string until;                   // an end of the problem; of a scene s
   std::vector<std::string> overrides;  // of scenes
   std::uint64_t samples = 2000;        // of functions and kernels
-  int digits = 30;                     // of true solutions
+  int digits = 0;                      // of true solutions; 0: default_digits() of the types
   double budget = default_evaluation_budget;
   unsigned repeats = 5;
   unsigned threads = 0;
@@ -39,6 +41,8 @@ struct WorkPrecisionJob {
   std::vector<CostModel::Row> costs;                // of them
   std::string plan_text;
   std::string plan;  // its hash
+  KeptPlace
+      kept;  // of truths and references: to be filled before the measurements where there is a directory
 };
 
 // Throws a Failure that names the option, and where nothing is left to measure.
@@ -53,12 +57,29 @@ struct WorkPrecisionJob {
 [[nodiscard]] std::string end_of_problem(const InitialValueInfo& problem, const std::string& until);
 // "64,128", "64..4096"; each once, rising.  Throws a Failure.
 [[nodiscard]] std::vector<std::uint64_t> step_list(const std::string& text);
+// What --dt names.
+struct DtChoices {
+  std::string of_scenes;           // comma-separated
+  std::vector<double> tolerances;  // of planned steps, each once, falling
+};
+// Throws a Failure.
+[[nodiscard]] DtChoices dt_choices(const std::string& text);
+// As shared_truths(); what `kept` has, which is looked at when it is needed, is not computed again.
+[[nodiscard]] ProblemTruths kept_truths(const std::string& problem, const std::string& end, int digits,
+                                        const KeptPlace& kept);
+// Two or more decimal digits beyond the widest of the types, from 15 to 34: more take a wider type, and
+// minutes.
+[[nodiscard]] int default_digits(const std::vector<std::string>& types);
 
+// One step of a scene.
+struct SceneRung {
+  std::string dt;  // as its reader takes it
+  std::uint64_t steps = 0;
+};
 // A scene at several steps that all end at the same time.
 struct SceneLadder {
   SceneRequest scene;            // at its coarsest step, steps given
-  std::vector<std::string> dts;  // from the coarsest on
-  std::vector<std::uint64_t> steps;
+  std::vector<SceneRung> rungs;  // from the coarsest on
   double until_s = 0;
   std::string end;  // until_s as text
   SceneInstants instants;
@@ -74,8 +95,11 @@ struct SceneLadder {
 // The methods of `names` that the scene admits.
 [[nodiscard]] std::vector<std::string> admitted(const SceneLadder& ladder,
                                                 const std::vector<std::string>& names);
-// The setting of rung k of a ladder.
-[[nodiscard]] std::unique_ptr<SceneSetting> scene_setting(const SceneLadder& ladder, std::size_t k,
+// A step between two rungs: about 2^-halvings times the coarsest, such that as many steps fall on the
+// ladder's end and on each of its instants.
+[[nodiscard]] SceneRung rung_between(const SceneLadder& ladder, double halvings);
+// The setting of a rung.
+[[nodiscard]] std::unique_ptr<SceneSetting> scene_setting(const SceneLadder& ladder, const SceneRung& rung,
                                                           const std::string& type,
                                                           const std::string& integrator,
                                                           const SharedReference& reference);

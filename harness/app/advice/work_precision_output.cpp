@@ -23,6 +23,7 @@ Json setting_json(const char* what, const WorkSetting& s) {
   if (s.integrator.empty()) return j;
   j["integrator"] = s.integrator;
   j["end"] = s.end;
+  if (s.planned()) j["planned"] = true;
   return j;
 }
 
@@ -46,6 +47,7 @@ Json row_json(const WorkPrecisionRow& row, const std::optional<ErrorRegime>& reg
   if (o.largest_error_ulp) j["largest_error_ulp"] = *o.largest_error_ulp;
   j["energy_error"] = number_or_null(o.energy_error);
   j["reference_error"] = number_or_null(o.reference_error);
+  if (o.instants) j["instants"] = *o.instants;
   if (o.t_s) {
     j["t_s"] = *o.t_s;
     j["t_s_to_the_end"] = o.t_s_to_the_end;
@@ -119,8 +121,8 @@ std::string fit_line(FittedError which, const ErrorFit& fit) {
   text += fmt::format("max({}), off by {:.2f} decades{}; ", branches, *fit.residual,
                       fit.bad ? " (not of this form)" : "");
   text += fmt::format("least {:.2e} at dt = {:.3g}", *fit.best_error, *fit.best_dt);
-  return text + (fit.crossing_dt ? fmt::format(", rounding takes over at dt = {:.2g}\n", *fit.crossing_dt)
-                                 : ", rounding not reached\n");
+  if (fit.crossing_dt) return text + fmt::format(", rounding takes over at dt = {:.2g}\n", *fit.crossing_dt);
+  return text + (fit.order ? ", rounding not reached\n" : ", rounding alone\n");
 }
 
 std::string shown_error(const std::optional<double>& x) {
@@ -145,10 +147,11 @@ void print_row(const WorkPrecisionRow& row, const std::optional<TimeSummary>& ti
     fmt::print("  {:>9} dt {:<10} {}: {}\n", row.setting.steps, step, to_string(o.failure), o.why);
     return;
   }
-  fmt::print("  {:>9} dt {:<10} error {:>10}  energy {:>10}  {:>10} evaluations  {:>10}  {}{}{}\n",
-             row.setting.steps, step, shown_error(o.final_error), shown_error(o.energy_error), o.evaluations,
-             seconds, regime ? to_string(*regime) : "",
-             o.t_s ? fmt::format("  t_s {}{:.3g} s", o.t_s_to_the_end ? ">= " : "", *o.t_s) : "", front);
+  fmt::print(
+      "  {:>9} dt {:<10} error {:>10}  largest {:>10}  energy {:>10}  {:>10} evaluations  {:>10}  {}{}{}\n",
+      row.setting.steps, step, shown_error(o.final_error), shown_error(o.largest_error),
+      shown_error(o.energy_error), o.evaluations, seconds, regime ? to_string(*regime) : "",
+      o.t_s ? fmt::format("  t_s {}{:.3g} s", o.t_s_to_the_end ? ">= " : "", *o.t_s) : "", front);
 }
 
 }  // namespace
@@ -257,7 +260,8 @@ void print_work_precision(const std::vector<WorkPrecisionRow>& rows, const Setti
   }
   if (!fronts.empty()) {
     fmt::print(
-        "*: on the Pareto front of error and time; times are good to {:.1f} % (a baseline's median over its "
+        "*: on the Pareto front of error and time (a gain in error of 2 % or less is none); times are good "
+        "to {:.1f} % (a baseline's median over its "
         "minimum)\n",
         100 * times.noise());
   }

@@ -25,8 +25,8 @@ struct WorkCurve {
 [[nodiscard]] std::string row_lines(const std::vector<WorkPrecisionRow>& rows, const std::string& plan);
 // Lines of work_precision_fits.jsonl.
 [[nodiscard]] std::string fit_lines(const std::vector<WorkPrecisionRow>& rows, const std::string& plan);
-// Lines of work_precision_timing.jsonl, of what has been timed; a setting is on the front where no other of
-// its subject, of any type and integrator, has both less error and less time.
+// Lines of work_precision_timing.jsonl, of what has been timed; a setting is on the front where it is on that
+// of all settings of its subject, of any type and integrator, by error and least time.
 [[nodiscard]] std::string timing_lines(const std::vector<WorkPrecisionRow>& rows, const SettingTimes& times,
                                        const std::string& plan);
 // What timing_lines wrote of the same plan; nothing where the file is absent, torn or of another plan: then

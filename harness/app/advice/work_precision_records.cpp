@@ -35,12 +35,13 @@ constexpr FieldKind subject_word = {"a kind of subject", is_subject};
 constexpr FieldKind failure_word = {"a failure, or null", is_failure};
 constexpr FieldKind time_kind = {"a number from 0 on", is_time};
 
-constexpr std::array<Field, 23> fields = {{{"what", what_word},
+constexpr std::array<Field, 25> fields = {{{"what", what_word},
                                            {"subject", subject_word},
                                            {"name", name},
                                            {"type", word},
                                            {"integrator", word, optional},
                                            {"end", word, optional},
+                                           {"planned", flag, optional},
                                            {"steps", steps, optional},
                                            {"dt", positive, optional},
                                            {"dt_text", word, optional},
@@ -53,6 +54,7 @@ constexpr std::array<Field, 23> fields = {{{"what", what_word},
                                            {"largest_error_ulp", size, optional},
                                            {"energy_error", size},
                                            {"reference_error", size},
+                                           {"instants", steps, optional},
                                            {"t_s", time_kind, optional},
                                            {"t_s_to_the_end", flag, optional},
                                            {"growth_rate", number, optional},
@@ -72,6 +74,8 @@ std::string contradiction_of(const Json& row) {
   const bool curve = row.contains("integrator");
   for (const auto* field : {"end", "steps", "dt", "steps_taken"})
     if (row.contains(field) != curve) return fmt::format("'integrator' and '{}' go together", field);
+  if (row.value("planned", false) != row.value("dt_text", "").starts_with(plan_mark))
+    return "'planned' and a dt_text of a plan go together";
   const bool failed = !row.at("failure").is_null();
   const bool error = !row.at("final_error").is_null() || !row.at("largest_error").is_null();
   if (failed && error) return "a setting that failed has no error";
@@ -106,6 +110,7 @@ WorkPrecisionRow row_of(const Json& j) {
   o.largest_error_ulp = optional_number(j, "largest_error_ulp");
   o.energy_error = optional_number(j, "energy_error");
   o.reference_error = optional_number(j, "reference_error");
+  if (j.contains("instants")) o.instants = j.at("instants").get<std::uint64_t>();
   o.t_s = optional_number(j, "t_s");
   o.t_s_to_the_end = j.value("t_s_to_the_end", false);
   o.growth_rate = optional_number(j, "growth_rate");

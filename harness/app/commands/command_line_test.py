@@ -13,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "reports"))
 
 from ulpgate_report.records.checksums import sealed  # noqa: E402
+from ulpgate_report.work_precision import axes  # noqa: E402
 
 ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 WRONG_EXP = os.environ.get("ULPGATE_WRONG_EXP", "")
@@ -62,6 +63,7 @@ BAD_USAGE = [
     ([], "subcommand"),
     (["gate", "/nonexistent", "--budgets", "/nonexistent"], "no such directory"),
     (["report", "x"], "give --out"),
+    (["report", "x", "--print", "--axes", "error,dt"], "--out"),
 ]
 
 
@@ -71,6 +73,27 @@ def test_bad_usage_is_exit_2_with_a_message(words, message, tmp_path):
     assert code == 2
     assert message in err
     assert not (tmp_path / "x").exists()
+
+
+def test_the_report_is_told_the_axes(tmp_path):
+    words = ["work-precision", "--subjects", "sin", "--types", "float,double"]
+    words += ["--samples", "100", "--repeats", "1", "--out", tmp_path / "records"]
+    code, _, err = run(*words)
+    assert code == 0, err
+    report = ["report", tmp_path / "records", "--out", tmp_path / "report", "--axes"]
+    code, _, err = run(*report, "error,price")
+    assert code == 2 and "'error,price' is not two of" in err
+    assert not (tmp_path / "report").exists()
+    code, _, err = run(*report, "seconds,error", "--axes", "largest_error,seconds")
+    assert code == 0, err
+    drawn = {path.stem for path in (tmp_path / "report/figures").glob("*.svg")}
+    assert drawn == {
+        "work_precision_function_seconds_error",
+        "work_precision_function_largest_error_seconds",
+    }
+    help_text = " ".join(run("report", "--help")[1].split())
+    for name in axes.QUANTITIES:
+        assert name in help_text
 
 
 def test_list_types_is_the_published_table():

@@ -10,6 +10,7 @@
 #include "harness/app/machine/machine_facts.hpp"
 #include "harness/app/orders/order_output.hpp"
 #include "harness/app/reading/line_kinds.hpp"
+#include "harness/app/run/resume_options.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
@@ -133,10 +134,7 @@ void add_integrators_command(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(CLI::Range(0U, 4096U));
   verb->add_option("--out", o->out, "directory of orders.jsonl (drift.jsonl) and context.json");
-  auto* resume = verb->add_flag("--resume", o->resume,
-                                "go on with a run that was interrupted or killed; a new one starts");
-  verb->add_flag("--overwrite", o->overwrite, "write over the records of another plan, or a partial run")
-      ->excludes(resume);
+  add_resume_options(*verb, o->resume, o->overwrite);
   verb->add_flag("--json", o->json, "print the records");
   verb->callback([=, &action] { action = [=] { return run_integrators(*o); }; });
 }

@@ -1,18 +1,22 @@
 """Tests of `ulpgate integrators` through the program: orders, exit codes, interrupts, kills and what resumes from them."""
 
-import contextlib
+import functools
 import json
-import os
 import pathlib
-import pty
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
+
+import program  # noqa: E402
+from program import log_lines, wait_for_pieces  # noqa: E402
+
+run = functools.partial(program.run, "integrators")
+started = functools.partial(program.started, "integrators")
 
 # Hours, in slices of half a second.
 ENDLESS_DRIFT = ["--types", "mpfr62", "--problems", "kepler", "--drift", "100000"]
@@ -36,50 +40,10 @@ OVERFLOW = ["--types", "float", "--integrators", "cash_karp54"]
 OVERFLOW += ["--problems", "oscillator", "--steps-per-unit", "1", "--drift", "400000"]
 
 
-def words(*more):
-    return [ULPGATE, "integrators", *map(str, more)]
-
-
-def run(*more):
-    done = subprocess.run(words(*more), capture_output=True, text=True, cwd=ROOT)
-    return done.returncode, done.stdout, done.stderr
-
-
-@contextlib.contextmanager
-def started(*more):
-    """A run in the background, which does not outlive the test."""
-    process = subprocess.Popen(
-        words(*more),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=ROOT,
-    )
-    try:
-        yield process
-    finally:
-        process.kill()
-        process.communicate()
-
-
 def ended(process, how, timeout=None):
     """What a run says on stderr that is told to end."""
     process.send_signal(how)
     return process.communicate(timeout=timeout)[1]
-
-
-def log_lines(out):
-    log = out / "units/log.txt"
-    return log.read_bytes().splitlines(keepends=True) if log.exists() else []
-
-
-def wait_for_pieces(out, count):
-    """Until so many pieces are kept under `out`."""
-    for _ in range(3000):
-        if len(log_lines(out)) > count:
-            return
-        time.sleep(0.02)
-    raise AssertionError(f"{out} never held {count} pieces")
 
 
 def records(out, name):
@@ -113,10 +77,7 @@ def test_integrators_show_their_orders(tmp_path):
     )
     assert code == 0, out + err
     rows = [json.loads(x) for x in records(tmp_path, "orders").splitlines()]
-    listed = subprocess.run(
-        [ULPGATE, "list", "integrators", "--json"], capture_output=True, text=True
-    )
-    known = json.loads(listed.stdout)
+    known = json.loads(program.run("list", "integrators", "--json")[1])
     names = {i["integrator"] for i in known if i["order"] is not None}
     assert {r["integrator"] for r in rows} == names
     assert {r["problem"] for r in rows if r["integrator"] == "yoshida8"} == {"kepler"}
@@ -170,9 +131,8 @@ def test_a_step_that_is_too_large_is_no_crash(tmp_path):
 def test_a_full_disk_behind_a_pipe_is_exit_4():
     with open("/dev/full", "w") as full:
         for more in (["--drift", "8"], ["--integrators", "pefrl"]):
-            done = subprocess.run(
-                words("--problems", "kepler", *more), stdout=full, cwd=ROOT
-            )
+            words = program.command("integrators", "--problems", "kepler", *more)
+            done = subprocess.run(words, stdout=full, cwd=program.ROOT)
             assert done.returncode == 4
 
 
@@ -303,13 +263,7 @@ def test_a_partial_run_is_neither_lost_nor_mixed(tmp_path, whole):
 def test_pieces_of_another_machine_are_refused(tmp_path, whole):
     _, size, _, _ = whole
     partial(tmp_path, size)
-    log = tmp_path / "units/log.txt"
-    header, _, rest = log.read_text().partition("\n")
-    payload = header[17:].replace('"glibc":"', '"glibc":"9')
-    checksum = 0xCBF29CE484222325
-    for byte in payload.encode():
-        checksum = (checksum ^ byte) * 0x100000001B3 % 2**64
-    log.write_text(f"{checksum:016x} {payload}\n{rest}")
+    program.move_to_another_machine(tmp_path)
     code, _, err = run(*size, "--resume", "--out", tmp_path)
     assert code == 2 and "libraries glibc" in err
 
@@ -337,17 +291,5 @@ def test_two_processes_do_not_share_a_directory(tmp_path):
 def test_a_terminal_shows_the_time_left_and_a_pipe_nothing():
     code, _, err = run(*DRIFT)
     assert code == 0 and err == ""
-    terminal, end = pty.openpty()
-    process = subprocess.Popen(
-        words(*DRIFT), stdout=subprocess.DEVNULL, stderr=end, cwd=ROOT
-    )
-    os.close(end)
-    shown = b""
-    try:
-        while chunk := os.read(terminal, 4096):
-            shown += chunk
-    except OSError:
-        pass  # how Linux says that the other end is closed
-    os.close(terminal)
-    assert process.wait() == 0
+    shown = program.shown_on_terminal("integrators", *DRIFT)
     assert b"integrators [" in shown and b" left" in shown

@@ -6,8 +6,6 @@
 #include "harness/app/machine/ending.hpp"
 #include "harness/app/machine/watchdog.hpp"
 #include "harness/app/shell/crash_report.hpp"
-#include "harness/app/shell/strict_options.hpp"
-#include "harness/app/stress_commands/stress_commands.hpp"
 #include "reference/types/mpfr_value.hpp"
 
 namespace ulpgate::app {
@@ -22,22 +20,8 @@ int run(int argc, char** argv) {
       "Exit codes: 0 pass, 1 accuracy regression, 2 bad usage or input, 3 nothing measured or incomplete,\n"
       "4 crash, time-out or I/O failure.");
   Action action;
-  add_list_command(app, action);
-  add_math_command(app, action);
-  add_kernels_command(app, action);
-  add_integrators_command(app, action);
-  add_scene_command(app, action);
-  add_stress_command(app, action);
-  add_work_precision_command(app, action);
-  add_advise_command(app, action);
-  add_at_command(app, action);
-  add_search_command(app, action);
-  add_merge_command(app, action);
-  add_gate_command(app, action);
-  add_report_command(app, action);
   double timeout_s = 60;
-  add_timeout_option(app, timeout_s);
-  make_options_strict(app);
+  add_all_commands(app, action, timeout_s);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

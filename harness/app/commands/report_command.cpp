@@ -67,12 +67,22 @@ std::filesystem::path find_report() {
                 "reports/report.py is not found above the program; name its folder in ULPGATE_REPORTS");
 }
 
+struct ReportOptions {
+  std::string directory;
+  std::string out;
+  bool print = false;
+  std::vector<std::string> axes;  // "X,Y" each; the report program knows the names and refuses others
+};
+
 // The report program either writes or prints; both are two runs of it.
-Verdict run_report(const std::string& directory, const std::string& out, bool print) {
-  const std::vector<std::string> words = {find_python(), find_report().string(), directory};
+Verdict run_report(const ReportOptions& o) {
+  const std::vector<std::string> words = {find_python(), find_report().string(), o.directory};
   std::vector<std::vector<std::string>> options;
-  if (!out.empty()) options.push_back({"--out", out});
-  if (print) options.push_back({"--print"});
+  if (!o.out.empty()) {
+    options.push_back({"--out", o.out});
+    for (const auto& pair : o.axes) options.back().push_back("--axes=" + pair);
+  }
+  if (o.print) options.push_back({"--print"});
   for (const auto& chosen : options) {
     std::vector<std::string> all = words;
     all.insert(all.end(), chosen.begin(), chosen.end());
@@ -86,17 +96,21 @@ Verdict run_report(const std::string& directory, const std::string& out, bool pr
 
 void add_report_command(CLI::App& app, Action& action) {
   auto* report = app.add_subcommand("report", "Make tables, figures and a page from records");
-  auto directory = std::make_shared<std::string>();
-  auto out = std::make_shared<std::string>();
-  auto print = std::make_shared<bool>(false);
-  report->add_option("DIR", *directory, "directory of the records")->required();
-  report->add_option("--out", *out, "directory of the report");
-  report->add_flag("--print", *print, "print the ULP table");
+  auto o = std::make_shared<ReportOptions>();
+  report->add_option("DIR", o->directory, "directory of the records")->required();
+  auto* out = report->add_option("--out", o->out, "directory of the report");
+  report->add_flag("--print", o->print, "print the ULP table");
+  report
+      ->add_option("--axes", o->axes,
+                   "X,Y: draw error against run time with these axes, again for another pair; two of error, "
+                   "largest_error, energy_error, seconds, steps, evaluations, dt (without: error,seconds)")
+      ->allow_extra_args(false)
+      ->needs(out);
   report->callback([=, &action] {
     action = [=] {
-      if (out->empty() && !*print)
+      if (o->out.empty() && !o->print)
         throw Failure(Standing::bad_input, "report: give --out DIR, --print or both");
-      return run_report(*directory, *out, *print);
+      return run_report(*o);
     };
   });
 }

@@ -3,28 +3,18 @@
 import json
 import os
 import pathlib
-import subprocess
 import sys
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
+
+from program import ROOT, ULPGATE, run  # noqa: E402
+
 sys.path.insert(0, str(ROOT / "harness/app/run"))
 import narrow_bugs  # noqa: E402
 
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 WRONG_EXP = os.environ.get("ULPGATE_WRONG_EXP", "")
-
-
-def run(*words, program=ULPGATE, env=None):
-    done = subprocess.run(
-        [program, *[str(w) for w in words]],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        env=env,
-    )
-    return done.returncode, done.stdout, done.stderr
 
 
 def search(function, token, evaluations, *more, program=ULPGATE):

@@ -1,27 +1,19 @@
 """Edited records for tests: what a run wrote, changed line by line, with checksums that fit again."""
 
+import functools
 import json
-import os
 import pathlib
-import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
-sys.path.insert(0, str(ROOT / "reports"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
+
+import program  # noqa: E402
+
+sys.path.insert(0, str(program.ROOT / "reports"))
 
 from ulpgate_report.records.checksums import fnv1a, sealed  # noqa: E402
 
-
-def run(*words):
-    done = subprocess.run(
-        [ULPGATE, *map(str, words)],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        timeout=120,
-    )
-    return done.returncode, done.stdout, done.stderr
+run = functools.partial(program.run, timeout=120)
 
 
 def lines_of(file):

@@ -1,32 +1,21 @@
 """Tests of narrow bugs through the program itself: planted by a preloaded library, found by the gate, down to one float."""
 
 import json
-import os
 import pathlib
-import subprocess
 import sys
 
 import false_failures
 import narrow_bugs
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
+
+from program import ROOT, ULPGATE, run  # noqa: E402
+
 sys.path.insert(0, str(ROOT / "scripts"))
 import budget_platform  # noqa: E402
 
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
 SIZE = ["--samples", "1000", "--timing", "off"]
-
-
-def run(*words, env=None):
-    done = subprocess.run(
-        [ULPGATE, *[str(w) for w in words]],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        env=env,
-    )
-    return done.returncode, done.stdout, done.stderr
 
 
 @pytest.fixture(scope="module")

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "harness/app/machine/machine_facts.hpp"
+#include "harness/app/run/resume_options.hpp"
 #include "harness/app/run/timing.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
@@ -64,13 +65,23 @@ void add_plan_options(CLI::App& verb, PlanOptions& o, const std::string& samples
   verb.add_option("--shard", o.shard, "i/n: the i-th of n parts, 0 <= i < n; `ulpgate merge` joins them")
       ->capture_default_str();
   verb.add_option("--out", o.out, "directory of the records");
-  verb.add_option("--timing", o.timing, "write timing.jsonl: auto (unless a shard), on, off")
+  verb.add_option(
+          "--timing", o.timing,
+          "write timing.jsonl: auto (unless a shard), on, off; repeats: timing_repeats.jsonl as well, for "
+          "`ulpgate compare` and `ulpgate history`")
       ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "on", "off"}));
-  auto* resume = verb.add_flag("--resume", o.resume,
-                               "go on with a run that was interrupted or killed; a new one starts");
-  verb.add_flag("--overwrite", o.overwrite, "write over the records of another plan, or a partial run")
-      ->excludes(resume);
+      ->check(CLI::IsMember({"auto", "on", "off", "repeats"}));
+  verb.add_option("--timing-processes", o.timing_processes,
+                  "with --timing repeats: processes, one after the other")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 1000U));
+  verb.add_option("--timing-rounds", o.timing_rounds,
+                  "with --timing repeats: rounds over all rows in each process")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 1000U));
+  // What such a process is started with; of no use to people.
+  verb.add_option("--time-rounds", o.time_rounds)->group("")->check(CLI::Range(1U, 1000U));
+  add_resume_options(verb, o.resume, o.overwrite);
   verb.add_flag("--allow-large", o.allow_large, "run a plan whose units need more than 4 GB of memory");
   verb.add_flag("--dry-run", o.dry_run,
                 "print the plan's hash, rows, points and units as JSON, and measure nothing");
@@ -102,12 +113,34 @@ Verdict print_plan(const Plan& plan) {
   return Standing::pass;
 }
 
+void write_times(const PlanRequest& request, const PlanOptions& o, const Shard& shard,
+                 const OutputDirectory& out) {
+  std::vector<TimingRecord> times;
+  if (o.timing == "repeats") {
+    const auto rows = time_in_processes(request, o.timing_processes, o.timing_rounds);
+    for (const auto& row : rows) times.push_back(row.record);
+    out.write(timing_repeats_file, repeats_text(rows));
+  } else if (o.timing == "on" || (o.timing == "auto" && shard.count == 1)) {
+    times = measure_times(request);
+  } else {
+    return;
+  }
+  out.write(timing_file, timing_text(times));
+}
+
 }  // namespace
 
 Verdict run_and_write(const Plan& plan, const PlanOptions& o, Ranks* ranks, const PlanVerdict& verdict) {
   if (plan.rows().empty())
     throw Failure(Standing::incomplete, "the selection holds no samples: nothing to measure");
+  if (o.time_rounds != 0) {
+    fmt::print("{}", repeats_text(time_in_rounds(plan.request(), o.time_rounds)));
+    return Standing::pass;
+  }
   if (o.out.empty()) throw Failure(Standing::bad_input, "--out DIR is required");
+  if (o.timing == "repeats" && ranks != nullptr)
+    throw Failure(Standing::bad_input,
+                  "--timing repeats: a rank starts no other processes; time with ulpgate");
   if (o.dry_run) return print_plan(plan);
   const bool functions = o.kind == SubjectKind::function;
   const char* file = functions ? math_records_file : kernel_records_file;
@@ -139,8 +172,7 @@ Verdict run_and_write(const Plan& plan, const PlanOptions& o, Ranks* ranks, cons
   const RunResult result = run_plan(plan, shard, threads, mode, checkpoint, ranks);
   const std::string text = records_text(result.records);
   out.write(file, text);
-  const bool timed = o.timing == "on" || (o.timing == "auto" && shard.count == 1);
-  if (timed && result.complete) out.write("timing.jsonl", timing_text(measure_times(plan.request())));
+  if (result.complete) write_times(plan.request(), o, shard, out);
   context["complete"] = result.complete && shard.count == 1;
   out.finish(context, result.complete);
   if (result.complete) checkpoint.remove();

@@ -25,6 +25,9 @@ struct PlanOptions {
   std::string out;
   std::string reference = "screened";
   std::string timing = "off";
+  unsigned timing_processes = 5;
+  unsigned timing_rounds = 5;
+  unsigned time_rounds = 0;  // of a process that does nothing but time
   bool resume = false;
   bool overwrite = false;
   bool json = false;

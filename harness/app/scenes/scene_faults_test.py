@@ -1,20 +1,25 @@
 """Scenes that are none, that leave the numbers, that are too large, or whose records were changed: each is refused with
 its place.  Names of tests begin with the row of the list of faults that they close."""
 
+import functools
 import json
-import os
 import pathlib
 import re
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
+
+import program  # noqa: E402
+from program import ROOT, ULPGATE  # noqa: E402
+
 # A run that hangs, or that takes memory without end, fails its test instead of the machine.
 SECONDS = 60
+run = functools.partial(program.run, timeout=SECONDS)
 
 SCENE = """name = "NAME"
 [constants]
@@ -29,17 +34,6 @@ MORE
 dt = DT
 until = 1
 """
-
-
-def run(*words):
-    done = subprocess.run(
-        [ULPGATE, *map(str, words)],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        timeout=SECONDS,
-    )
-    return done.returncode, done.stdout, done.stderr
 
 
 def write(tmp_path, name="mine", radius='"R"', more="", dt="1e-3"):

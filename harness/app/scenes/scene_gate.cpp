@@ -2,29 +2,21 @@
 #include "harness/app/scenes/scene_gate.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "harness/app/budgets/toml_files.hpp"
 #include "harness/app/reading/line_kinds.hpp"
 #include "harness/app/scenes/scene_output.hpp"
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/records.hpp"
+#include "harness/core/gate/findings/reproducer.hpp"
 
 namespace ulpgate::app {
 
 namespace {
-
-using SceneRowBudgets = SceneBudgets::mapped_type;
-using Limit = std::optional<double> SceneBudget::*;
-constexpr std::pair<const char*, Limit> limits[] = {
-    {"t_s", &SceneBudget::t_s},
-    {"max_energy_error", &SceneBudget::max_energy_error},
-    {"max_energy_error_raw", &SceneBudget::max_energy_error_raw},
-    {"max_energy_created", &SceneBudget::max_energy_created}};
 
 bool is_collision_word(const Json& j) {
   return j == "collision" || j == "ledger";
@@ -116,6 +108,10 @@ std::optional<double> number_at(const PlacedRow& row, const char* key) {
   return it->is_number() ? it->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
+void set_figure(MeasuredRow& m, const char* figure, const PlacedRow& row, const char* key) {
+  if (const auto x = number_at(row, key)) m.figures[figure] = *x;
+}
+
 // Whether a correlation is that of the run: all that tells two runs of one plan apart.
 bool is_of_run(const PlacedRow& correlation, const PlacedRow& run) {
   for (const char* key : {"scene", "type", "dt", "variant", "integrator"})
@@ -125,7 +121,7 @@ bool is_of_run(const PlacedRow& correlation, const PlacedRow& run) {
 }
 
 // What the ledger of a run says, where there is one.
-void add_collisions(const std::vector<PlacedRow>& rows, const PlacedRow& run, SceneMeasurement& m) {
+void add_collisions(const std::vector<PlacedRow>& rows, const PlacedRow& run, MeasuredRow& m) {
   const PlacedRow* totals = nullptr;
   std::uint64_t listed = 0;
   for (const PlacedRow& row : rows) {
@@ -140,18 +136,17 @@ void add_collisions(const std::vector<PlacedRow>& rows, const PlacedRow& run, Sc
   const Json& t = totals->row;
   if (t.at("rows") != listed)
     bad(totals->place, fmt::format("'rows' is {}, but {} collisions are there", t.at("rows").dump(), listed));
-  if (t.at("ended").get<std::uint64_t>() > 0) m.energy_created = number_at(*totals, "largest_created");
-  m.collisions_beyond = t.at("beyond").get<std::uint64_t>();
+  if (t.at("ended").get<std::uint64_t>() > 0) set_figure(m, "max_energy_created", *totals, "largest_created");
+  m.figures["still_open"] = static_cast<double>(t.at("still_open").get<std::uint64_t>());
+  const auto beyond = t.at("beyond").get<std::uint64_t>();
+  if (beyond == 0) return;
+  m.breach = fmt::format("{} collisions make energy beyond their condition, furthest", beyond);
   if (const Json& at = t.at("largest_part_of_bound_at"); at.is_array()) {
-    m.furthest_beyond = fmt::format("bodies {}-{} from step {}, {} times what they may", at[0].dump(),
-                                    at[1].dump(), at[2].dump(), t.at("largest_part_of_bound").dump());
+    m.got = fmt::format("bodies {}-{} from step {}, {} times what they may", at[0].dump(), at[1].dump(),
+                        at[2].dump(), t.at("largest_part_of_bound").dump());
+    m.breach += " " + m.got;
+    m.wanted = "no energy beyond rounding, time step and law";
   }
-}
-
-// Expressions hold brackets and stars, which a shell would take.
-std::string shell_word(const std::string& text) {
-  const bool plain = text.find_first_of("()* ") == std::string::npos;
-  return plain ? text : "'" + text + "'";
 }
 
 }  // namespace
@@ -160,17 +155,17 @@ bool has_scene_records(const std::filesystem::path& directory) {
   return std::filesystem::exists(directory / scene_records_file);
 }
 
-std::vector<SceneMeasurement> read_scene_measurements(const std::filesystem::path& directory) {
+std::vector<MeasuredRow> read_scene_measurements(const std::filesystem::path& directory) {
   const SceneRows rows = read_scene_rows(directory);
   if (!rows.context.at("complete").get<bool>())
     throw Failure(Standing::incomplete, fmt::format("{}: the run is not complete", directory.string()));
   std::vector<PlacedRow> collisions;
   const bool ledger = std::filesystem::exists(directory / collision_records_file);
   if (ledger) collisions = read_rows(directory, rows.context, collision_lines);
-  std::vector<SceneMeasurement> measured;
+  std::vector<MeasuredRow> measured;
   for (const PlacedRow& row : rows.scenes) {
-    SceneMeasurement m;
-    m.scene = text_of(row, "scene");
+    MeasuredRow m;
+    m.name = text_of(row, "scene");
     m.type = text_of(row, "type");
     const std::string dt = text_of(row, "dt");
     const std::string variant = text_of(row, "variant");
@@ -179,97 +174,30 @@ std::vector<SceneMeasurement> read_scene_measurements(const std::filesystem::pat
     m.run = fmt::format("{} dt={} steps={}{}{}", integrator, dt, steps, variant.empty() ? "" : " ", variant);
     // Without an account both errors are 0 and say nothing.
     if (row.row.contains("energy") && row.row["energy"].is_object()) {
-      m.max_energy_error = number_at(row, "max_energy_error");
-      m.max_energy_error_raw = number_at(row, "max_energy_error_raw");
+      set_figure(m, "max_energy_error", row, "max_energy_error");
+      set_figure(m, "max_energy_error_raw", row, "max_energy_error_raw");
     }
     const std::string run =
-        fmt::format("{} --types {} --dt {} --steps {}", m.scene, m.type, shell_word(dt), steps);
-    m.reproduce =
-        fmt::format("ulpgate scene run {} --series{} --out DIR", run, ledger ? " --collisions" : "");
+        fmt::format("{} --types {} --dt {} --steps {}", m.name, m.type, shell_word(dt), steps);
+    std::string against;
     if (ledger) add_collisions(collisions, row, m);
     for (const PlacedRow& c : rows.correlations) {
-      const std::string against = text_of(c, "against");
-      if (!is_of_run(c, row) || against == "RealHP4" || against == "half_step") continue;
-      if (m.t_s) bad(c.place, fmt::format("a second correlation of {} {}", m.scene, scene_budget_key(m)));
-      m.t_s = number_at(c, "t_s");
-      m.reproduce = fmt::format("ulpgate scene correlate {} --reference {} --series --out DIR", run, against);
+      const std::string reference = text_of(c, "against");
+      if (!is_of_run(c, row) || reference == "RealHP4" || reference == "half_step") continue;
+      if (m.figures.contains("t_s"))
+        bad(c.place, fmt::format("a second correlation of {} {}", m.name, figure_key(m)));
+      set_figure(m, "t_s", c, "t_s");
+      against = reference;
     }
+    // The directory is the reader's own, and the command may be given twice.
+    const std::string verb = against.empty() ? fmt::format("run {}{}", run, ledger ? " --collisions" : "")
+                                             : fmt::format("correlate {} --reference {}", run, against);
+    m.reproduce = fmt::format("ulpgate scene {} --series --out reproduced --overwrite", verb);
     if (integrator != "leapfrog") m.reproduce += " --integrator " + integrator;
     for (const auto& change : split(variant, ',')) m.reproduce += " --set " + shell_word(change);
     measured.push_back(std::move(m));
   }
   return measured;
-}
-
-namespace {
-
-SceneRowBudgets parse_scene(const std::string& text, const std::string& file) {
-  const auto at = [&](const toml::node& node) {
-    return fmt::format("{}:{}", file, node.source().begin.line);
-  };
-  try {
-    SceneRowBudgets rows;
-    for (const auto& [section, node] : toml::parse(text, file)) {
-      if (section != "budget" || !node.is_table())
-        bad(at(node), fmt::format("unknown section '{}'", section.str()));
-      for (const auto& [name, value] : *node.as_table()) {
-        if (!value.is_table()) bad(at(value), fmt::format("budget '{}' must be a table", name.str()));
-        SceneBudget& b = rows[std::string(name.str())];
-        bool limited = false;
-        for (const auto& [key, number] : *value.as_table()) {
-          if (key == "reason" && number.is_string()) {
-            b.reason = *number.value<std::string>();
-            continue;
-          }
-          const auto* const limit =
-              std::ranges::find_if(limits, [text = key.str()](const auto& l) { return text == l.first; });
-          const auto x = number.value<double>();
-          if (limit == std::end(limits) || !x || !std::isfinite(*x) || *x < 0)
-            bad(at(number),
-                fmt::format("['{}'] {} must be one of t_s, max_energy_error, max_energy_error_raw, "
-                            "max_energy_created and a finite number >= 0, or a reason",
-                            name.str(), key.str()));
-          b.*limit->second = *x;
-          limited = true;
-        }
-        if (!limited) bad(at(value), fmt::format("['{}'] limits nothing", name.str()));
-      }
-    }
-    return rows;
-  } catch (const toml::parse_error& e) {
-    throw Failure(Standing::bad_input,
-                  fmt::format("{}:{}: {}", file, e.source().begin.line, e.description()));
-  }
-}
-
-std::string scene_text(const std::string& scene, const SceneRowBudgets& rows) {
-  std::string text = fmt::format(
-      "# Budgets of {}: the least t_s (s) and the largest energy errors (J) of every type and run.\n"
-      "# Written by `ulpgate gate DIR --budgets DIR --update`; loosened only with `--reason`.\n",
-      scene);
-  for (const auto& [key, b] : rows) {
-    text += fmt::format("\n[budget.{}]\n", toml_quoted(key));
-    for (const auto& [name, limit] : limits) {
-      if (!(b.*limit)) continue;
-      if (!std::isfinite(*(b.*limit))) {
-        throw Failure(Standing::not_finite, fmt::format("{} {}: {} is {}, of which no budget can be made",
-                                                        scene, key, name, *(b.*limit)));
-      }
-      text += fmt::format("{} = {:#}\n", name, *(b.*limit));
-    }
-    if (!b.reason.empty()) text += fmt::format("reason = {}\n", toml_quoted(b.reason));
-  }
-  return text;
-}
-
-}  // namespace
-
-SceneBudgets read_scene_budgets(const std::filesystem::path& directory) {
-  return read_toml_files<SceneRowBudgets>(directory, parse_scene);
-}
-
-void write_scene_budgets(const std::filesystem::path& directory, const SceneBudgets& budgets) {
-  write_toml_files<SceneRowBudgets>(directory, budgets, scene_text, parse_scene);
 }
 
 }  // namespace ulpgate::app

@@ -87,4 +87,10 @@ void make_directory(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) io_failure("cannot make directory", path, ENOTDIR);
 }
 
+void remove_directory(const std::filesystem::path& path) {
+  std::error_code code;
+  std::filesystem::remove_all(path, code);
+  if (code) io_failure("cannot remove", path, code.value());
+}
+
 }  // namespace ulpgate::app

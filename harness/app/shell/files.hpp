@@ -12,5 +12,7 @@ namespace ulpgate::app {
 // The old content stays until the new one is complete on disk.
 void write_file(const std::filesystem::path& path, const std::string& content);
 void make_directory(const std::filesystem::path& path);
+// With all that is in it, or nothing where there is none.
+void remove_directory(const std::filesystem::path& path);
 
 }  // namespace ulpgate::app

@@ -2,8 +2,10 @@
 #include "harness/app/shell/selection.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "harness/app/shell/failure.hpp"
@@ -51,9 +53,15 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 void unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
+  const std::string listed = what == "stratum" ? "strata" : what + "s";
+  constexpr std::array<std::string_view, 6> lists{"functions", "types",  "strata",
+                                                  "kernels",   "scenes", "integrators"};
+  std::string all = fmt::format("one of {}", fmt::join(known, ", "));
+  if (std::ranges::find(lists, listed) != lists.end())
+    all = fmt::format("`ulpgate list {}` shows all", listed);
+  if (what == "case") all = "`ulpgate stress --list` shows all";
   throw Failure(Standing::bad_input,
-                fmt::format("unknown {} '{}'{} (`ulpgate list {}` shows all)", what, name,
-                            nearest_hint(name, known), what == "stratum" ? "strata" : what + "s"));
+                fmt::format("unknown {} '{}'{} ({})", what, name, nearest_hint(name, known), all));
 }
 
 const FunctionInfo& function_or_fail(const std::string& name) {

@@ -148,12 +148,7 @@ void Checkpoint::write_log(const std::string& text) {
 void Checkpoint::remove() {
   if (log_ >= 0) ::close(log_);
   log_ = -1;
-  std::error_code code;
-  std::filesystem::remove_all(directory_, code);
-  if (code) {
-    throw Failure(Standing::environment,
-                  fmt::format("cannot remove {}: {}", directory_.string(), code.message()));
-  }
+  remove_directory(directory_);
 }
 
 }  // namespace ulpgate::app

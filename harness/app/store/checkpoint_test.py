@@ -3,17 +3,20 @@
 import json
 import os
 import pathlib
-import pty
 import random
 import resource
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
+
+import program  # noqa: E402
+from program import ROOT, ULPGATE  # noqa: E402
+
 SLOW = "ULPGATE_SANITIZED" in os.environ
 
 # Until a process has its first unit.
@@ -111,13 +114,7 @@ def test_a_partial_run_is_neither_lost_nor_mixed(tmp_path, whole):
 
 def test_units_of_another_machine_are_refused(tmp_path, whole):
     partial(tmp_path, whole)
-    log = tmp_path / "units/log.txt"
-    header, _, rest = log.read_text().partition("\n")
-    payload = header[17:].replace('"glibc":"', '"glibc":"9')
-    checksum = 0xCBF29CE484222325
-    for byte in payload.encode():
-        checksum = (checksum ^ byte) * 0x100000001B3 % 2**64
-    log.write_text(f"{checksum:016x} {payload}\n{rest}")
+    program.move_to_another_machine(tmp_path)
     code, err = run(tmp_path, "--resume")
     assert code == 2 and "libraries glibc" in err
 
@@ -223,17 +220,7 @@ def test_kernels_resume_to_the_same_bytes(tmp_path):
 
 
 def test_a_terminal_shows_the_time_left(tmp_path):
-    master, slave = pty.openpty()
-    process = subprocess.Popen(words(tmp_path), stderr=slave, cwd=ROOT)
-    os.close(slave)
-    shown = b""
-    try:
-        while chunk := os.read(master, 4096):
-            shown += chunk
-    except OSError:
-        pass  # how Linux says that the other end is closed
-    os.close(master)
-    assert process.wait() == 0
+    shown = program.shown_on_terminal(*words(tmp_path)[1:])
     assert b"% " in shown or b"left" in shown
     assert b" left" in shown
 

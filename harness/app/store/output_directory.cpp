@@ -25,11 +25,17 @@ constexpr const char* records_files[] = {math_records_file,  kernel_records_file
                                          "orders.jsonl",     "drift.jsonl",
                                          "stress.jsonl",     "work_precision.jsonl",
                                          "collisions.jsonl", "work_precision_fits.jsonl"};
-constexpr const char* other_entries[] = {"timing.jsonl", "work_precision_timing.jsonl",
-                                         "advice.json",  "units",
-                                         "checkpoints",  "series",
-                                         "trajectory",   "snapshots",
-                                         "vtk",          "contacts",
+constexpr const char* other_entries[] = {timing_file,
+                                         timing_repeats_file,
+                                         "work_precision_timing.jsonl",
+                                         "advice.json",
+                                         "units",
+                                         "checkpoints",
+                                         "series",
+                                         "trajectory",
+                                         "snapshots",
+                                         "vtk",
+                                         "contacts",
                                          "correlation"};
 
 Json json_of(const RunIdentity& identity) {

@@ -116,12 +116,7 @@ void PieceLog::append(const Piece& piece) {
 }
 
 void PieceLog::remove() {
-  std::error_code code;
-  std::filesystem::remove_all(directory_, code);
-  if (code) {
-    throw Failure(Standing::environment,
-                  fmt::format("cannot remove {}: {}", directory_.string(), code.message()));
-  }
+  remove_directory(directory_);
 }
 
 }  // namespace ulpgate::app

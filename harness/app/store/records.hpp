@@ -15,6 +15,9 @@ namespace ulpgate::app {
 inline constexpr const char* math_records_file = "math.jsonl";
 inline constexpr const char* kernel_records_file = "kernels.jsonl";
 inline constexpr const char* scene_records_file = "scenes.jsonl";
+// Beside them, under no checksum: no two runs have the same.
+inline constexpr const char* timing_file = "timing.jsonl";
+inline constexpr const char* timing_repeats_file = "timing_repeats.jsonl";
 
 struct RecordSet {
   Json context;

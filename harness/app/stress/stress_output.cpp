@@ -33,7 +33,7 @@ std::string reproducer_of(const StressMeasurement& m) {
 }
 
 StressStanding standing_of(const StressMeasurement& m) {
-  return ulpgate::standing_of(m.stress_case(), m.token(), m.row()->verdict);
+  return ulpgate::standing_of(m.stress_case(), m.token(), *m.row());
 }
 
 const StressMeasurement& of(const std::unique_ptr<Measurement>& m) {
@@ -138,8 +138,10 @@ StressFindings judge_stress_job(const StressJob& job) {
     if (standing.as_known) continue;
     const StressRow& row = *m.row();
     findings.unexplained.push_back(fmt::format(
-        "{} {}: {}, known is {}: error {}, condition {}{}{}\n  {}", m.stress_case().key(), m.token(),
-        to_string(row.verdict), standing.expected, number_text(row.error), number_text(row.condition),
+        "{} {}: {}, known is {}{}: error {}, condition {}{}{}\n  {}", m.stress_case().key(), m.token(),
+        to_string(row.verdict), standing.expected,
+        standing.says.empty() ? "" : fmt::format(" with \"{}\"", standing.says), number_text(row.error),
+        number_text(row.condition),
         row.first_wrong.empty() ? "" : ", first wrong " + row.first_wrong,
         row.why.empty() ? "" : ": " + row.why, reproducer_of(m)));
   }

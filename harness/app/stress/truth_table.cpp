@@ -2,22 +2,22 @@
 #include "harness/app/stress/truth_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <mutex>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/machine/threads.hpp"
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/selection.hpp"
+#include "harness/core/trajectories/published_values.hpp"
 #include "harness/core/trajectories/trajectory_engine.hpp"
 #include "harness/core/trajectories/truth.hpp"
 #include "harness/core/watch/heartbeat.hpp"
-#include "reference/types/mpfr_value.hpp"
 
 namespace ulpgate::app {
 
@@ -47,30 +47,45 @@ std::vector<Task> chosen_tasks(const std::string& cases) {
   return tasks;
 }
 
-// |published - true|, and that over |true|.
-void compare_with_published(const Task& task) {
-  for (const auto& p : published_values()) {
-    if (p.problem != task.problem || p.end != task.end || p.component >= task.values.size()) continue;
-    constexpr mpfr_prec_t bits = 400;
-    MpfrValue published(bits);
-    MpfrValue exact(bits);
-    mpfr_strtofr(published.get(), p.value.c_str(), nullptr, 10, MPFR_RNDN);
-    mpfr_strtofr(exact.get(), task.values[p.component].value.c_str(), nullptr, 10, MPFR_RNDN);
-    MpfrValue off(bits);
-    mpfr_sub(off.get(), published.get(), exact.get(), MPFR_RNDN);
-    mpfr_abs(off.get(), off.get(), MPFR_RNDN);
-    // An orbit that closes does so to the digits of its constants.
-    if (mpfr_cmp_d(off.get(), 1e-24) < 0 && task.problem == "arenstorf") continue;
-    MpfrValue relative(bits);
-    mpfr_div(relative.get(), off.get(), exact.get(), MPFR_RNDN);
-    mpfr_abs(relative.get(), relative.get(), MPFR_RNDN);
-    mpfr_log10(relative.get(), relative.get(), MPFR_RNDN);
-    const double digits = -mpfr_get_d(relative.get(), MPFR_RNDN);
-    if (digits >= 15.3) continue;
-    fmt::print(stderr, "ulpgate: {} t = {} component {}: published {} has {:.1f} correct digits ({})\n",
-               p.problem, p.end, p.component + 1, p.value, std::max(0.0, digits), p.source);
+// A line for each component of a solution in print, and what they come to.
+class PublishedTable {
+ public:
+  void add(const Task& task) {
+    for (const auto& p : published_values()) {
+      if (p.problem != task.problem || p.end != task.end) continue;
+      const PublishedAgreement a = agreement_with_truth(p, task.values);
+      const std::string place = fmt::format("{} t = {} component {}", p.problem, p.end, p.component + 1);
+      fmt::print(stderr, "ulpgate: {}: published {} {} ({})\n", place, p.value,
+                 words(a, task.values[p.component].value), p.source);
+      ++compared_;
+      if (a.standing == PublishedStanding::to_the_last) ++to_the_last_;
+      if (a.standing == PublishedStanding::wrong) wrong_.push_back(place);
+    }
   }
-}
+  void print_sum() const {
+    if (compared_ == 0) return;
+    fmt::print(stderr,
+               "ulpgate: of {} published values {} hold to the last digit, {} in part, {} are wrong{}{}\n",
+               compared_, to_the_last_, compared_ - to_the_last_ - wrong_.size(), wrong_.size(),
+               wrong_.empty() ? "" : ": ", fmt::join(wrong_, ", "));
+  }
+
+ private:
+  static std::string words(const PublishedAgreement& a, const std::string& truth) {
+    if (a.printed == 0 && a.standing == PublishedStanding::to_the_last)
+      return fmt::format("holds: the component is {} beside much larger ones", truth);
+    const std::string count =
+        fmt::format("{:.1f} of {} digits{}", a.digits, a.printed,
+                    a.compared < a.printed ? fmt::format(", {} compared", a.compared) : "");
+    if (a.standing == PublishedStanding::to_the_last) return "holds to the last digit: " + count;
+    if (a.standing == PublishedStanding::in_part) return "holds in part: " + count;
+    return fmt::format("is WRONG: {} hold, the truth is {}", count, truth);
+  }
+
+  std::size_t compared_ = 0;
+  std::size_t to_the_last_ = 0;
+  std::vector<std::string> wrong_;
+};
 
 }  // namespace
 
@@ -81,6 +96,7 @@ Verdict print_truth(const std::string& cases, int digits, unsigned threads) {
   std::size_t next = 0;
   std::size_t printed = 0;
   Verdict verdict;
+  PublishedTable published;
   // In the order of the list, as far as all before are done.
   const auto print_done = [&] {
     for (; printed < tasks.size() && tasks[printed].done; ++printed) {
@@ -93,7 +109,7 @@ Verdict print_truth(const std::string& cases, int digits, unsigned threads) {
       for (std::size_t i = 0; i < task.values.size(); ++i)
         fmt::print("{}\t{}\t{}\t{}\n", task.problem, task.end, i + 1, task.values[i].value);
       std::fflush(stdout);
-      compare_with_published(task);
+      published.add(task);
     }
   };
   const auto work = [&](unsigned) {
@@ -126,6 +142,7 @@ Verdict print_truth(const std::string& cases, int digits, unsigned threads) {
   Threads pool(1, threads, work);
   work(0);
   pool.join();
+  published.print_sum();
   if (printed < tasks.size()) throw Failure(Standing::incomplete, "interrupted");
   return verdict;
 }

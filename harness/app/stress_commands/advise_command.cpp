@@ -17,11 +17,13 @@ namespace ulpgate::app {
 namespace {
 
 constexpr const char* advice_file = "advice.json";
+// Four months.
+constexpr double most_time_s = 1e7;
 
 std::string plan_text_of(const AdviceOptions& o) {
-  std::string text =
-      fmt::format("ulpgate advise plan 1\n{} error {:a} time {:a} types {} integrators {} until {}\n", o.name,
-                  o.error, o.time_s, o.types, o.integrators, o.until);
+  std::string text = fmt::format(
+      "ulpgate advise plan 2\n{} error {:a} time {:a} types {} integrators {} until {} along {}\n", o.name,
+      o.error, o.time_s, o.types, o.integrators, o.until, o.along);
   for (const auto& set : o.overrides) text += "set " + set + "\n";
   return text;
 }
@@ -38,6 +40,17 @@ void keep(const OutputDirectory& out, Json context, const Advice& advice, const 
 }
 
 Verdict run_advise(const AdviceOptions& o) {
+  if (o.time_s > most_time_s) {
+    // As an end is written.
+    std::string end = fmt::format("{:g}", o.time_s);
+    if (const auto plus = end.find("e+"); plus != std::string::npos) end.erase(plus + 1, 1);
+    throw Failure(
+        Standing::bad_input,
+        fmt::format(
+            "--time {}: it is how long the recommended run may take on this machine, at most {:.0f} s; "
+            "the end of the case's own time is --until {}",
+            end, most_time_s, end));
+  }
   if (o.out.empty() && o.overwrite) throw Failure(Standing::bad_input, "--overwrite needs --out DIR");
   const auto advice_case = make_advice_case(o);
   std::optional<OutputDirectory> out;
@@ -79,16 +92,19 @@ void add_advise_command(CLI::App& app, Action& action) {
       "Examples:\n"
       "  ulpgate advise pendulum3 --error 1e-10 --until 0.1\n"
       "  ulpgate advise robertson --error 1e-12 --types double,long_double,float128\n"
+      "  ulpgate advise robertson --until 1e11 --error 1e-8 --time 1\n"
       "Errors are measured, never computed from an order.  Exit code 3 where no setting meets the error.");
   auto o = std::make_shared<AdviceOptions>();
   const CLI::Validator positive(positive_and_finite, "NUMBER");
   verb->add_option("SCENE|CASE", o->name, "a scene built in, a file of a scene, or an initial value problem")
       ->required();
-  verb->add_option("--error", o->error,
-                   "wanted: of a problem's final state, of a scene's positions up to its end; relative")
+  verb->add_option(
+          "--error", o->error,
+          "wanted, relative: of a problem's state at the end (stiff: of each component), of a scene's "
+          "positions up to the end")
       ->required()
       ->check(positive);
-  verb->add_option("--time", o->time_s, "the longest that the recommended run may take, s")
+  verb->add_option("--time", o->time_s, "the longest that the recommended run may take on this machine, s")
       ->capture_default_str()
       ->check(positive);
   verb->add_option("--search-seconds", o->search_s, "what all runs of the search may take together")
@@ -100,6 +116,10 @@ void add_advise_command(CLI::App& app, Action& action) {
   verb->add_option(
       "--until", o->until,
       "end: one of the problem's, or of a scene in s (without: at most 1 s and 2e6 steps of a body)");
+  verb->add_flag(
+      "--along", o->along,
+      "the error of a problem is to be below the one wanted on the way too, where runs are compared; "
+      "of a scene it is in any case");
   verb->add_option("--set", o->overrides, "key=value of a scene, again for another")->allow_extra_args(false);
   verb->add_option("--records", o->records, "a directory of work_precision.jsonl to take settings from");
   auto* out = verb->add_option("--out", o->out, "directory of advice.json and of the settings measured");

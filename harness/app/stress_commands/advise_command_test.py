@@ -1,30 +1,24 @@
 """Tests of `ulpgate advise` through the program: what it recommends is run, and its error is below what was wanted."""
 
 import json
-import os
 import pathlib
 import shlex
-import subprocess
+import sys
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
+
+from program import run  # noqa: E402
+
 
 TYPES = ["--types", "float,double,long_double"]
 CASES = {
     "kepler": (1e-4, []),
-    "robertson": (1e-8, []),
+    "robertson": (1e-8, ["--until", "1e11"]),
     "pendulum3": (1e-9, ["--until", "0.005"]),
     "collision": (1e-5, []),
 }
-
-
-def run(*more):
-    done = subprocess.run(
-        [ULPGATE, *map(str, more)], capture_output=True, text=True, cwd=ROOT
-    )
-    return done.returncode, done.stdout, done.stderr
 
 
 def advice(name, error, *more):
@@ -48,8 +42,13 @@ def test_the_recommended_command_keeps_what_was_promised(name):
     rows = [json.loads(x) for x in out.splitlines()]
     again = next(r for r in rows if r["what"] == "work_precision")
     assert again["type"] == setting["type"] and again["steps"] == setting["steps"]
-    for key in ("final_error", "largest_error"):
-        assert again[key] is None or again[key] <= error
+    # A scene is to be true all along, a problem at its end.
+    counts = ["final_error"]
+    counts += ["largest_error"] if again["subject"] == "scene" else []
+    for key in counts:
+        assert again[key] <= error
+    for key in ("final_error", "largest_error", "instants"):
+        assert again[key] is not None
     command = shlex.split(found["command"])
     code, out, err = run(*command[1:], "--json")
     assert code == 0, err
@@ -68,6 +67,39 @@ def test_nothing_cheaper_that_was_looked_at_meets_the_error():
     assert len(found["curves"]) == len(
         {(c["type"], c["integrator"]) for c in found["curves"]}
     )
+
+
+def test_equal_steps_do_not_follow_a_stiff_problem_to_its_late_end():
+    error = 1e-8
+    _, found, _ = advice("robertson", error, "--until", "1e11")
+    assert found["setting"]["planned"] and "--dt plan:" in found["command"]
+    planned = {c["planned"] for c in found["curves"]}
+    assert planned == {True, False}, "both were tried"
+
+
+def test_an_error_on_the_way_is_asked_for():
+    error = 1e-6
+    more = ["--until", "1e11", "--integrators", "rodas3,radau5"]
+    _, end, _ = advice("robertson", error, *more)
+    _, along, _ = advice("robertson", error, *more, "--along")
+    assert end["setting"]["largest_error"] > error >= along["setting"]["largest_error"]
+    assert along["setting"]["evaluations"] > end["setting"]["evaluations"]
+
+
+def test_it_looks_between_doublings():
+    error = 1e-5
+    _, found, _ = advice("kepler", error, "--integrators", "pefrl")
+    mine = [
+        p
+        for p in found["looked_at"]
+        if p["type"] == found["setting"]["type"] and not p.get("planned")
+    ]
+    steps = sorted(p["steps"] for p in mine)
+    fails = [p["steps"] for p in mine if p["final_error"] > error]
+    meets = [p["steps"] for p in mine if p["final_error"] <= error]
+    assert len(steps) == len(set(steps))
+    if meets:
+        assert min(meets) <= 1.25 * max(fails)
 
 
 def test_it_says_what_limits_the_setting():
@@ -152,6 +184,7 @@ REFUSED = [
     (2, ["kepler", "--error", "nan"], "--error"),
     (2, ["kepler", "--error", "1e-3", "--until", "7"], "2 pi"),
     (2, ["kepler", "--error", "1e-3", "--set", "damping=0"], "--set"),
+    (2, ["robertson", "--error", "1e-3", "--time", "1e11"], "--until 1e11"),
     (3, ["kepler", "--error", "1e-30", "--types", "float,double"], "roundoff"),
     (3, ["collision", "--error", "1e-3", "--integrators", "gauss2"], "applies"),
 ]

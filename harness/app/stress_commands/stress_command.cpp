@@ -6,6 +6,7 @@
 
 #include "harness/app/machine/machine_facts.hpp"
 #include "harness/app/reading/run_context.hpp"
+#include "harness/app/run/resume_options.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
 #include "harness/app/stress/stress_output.hpp"
@@ -100,10 +101,7 @@ void add_stress_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(0U, 4096U));
   auto* list = verb->add_flag("--list", o->list, "print the chosen cases and what they are");
   auto* out = verb->add_option("--out", o->out, "directory of stress.jsonl and context.json")->excludes(list);
-  auto* resume = verb->add_flag("--resume", o->resume,
-                                "go on with a run that was interrupted or killed; a new one starts");
-  verb->add_flag("--overwrite", o->overwrite, "write over the records of another plan, or a partial run")
-      ->excludes(resume);
+  add_resume_options(*verb, o->resume, o->overwrite);
   auto* json = verb->add_flag("--json", o->json, "print the records");
   auto* truth = verb->add_flag("--truth", o->truth,
                                "print the true solutions of the initial value problems instead: case, t, "

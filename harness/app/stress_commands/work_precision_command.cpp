@@ -9,6 +9,7 @@
 #include "harness/app/advice/work_precision_output.hpp"
 #include "harness/app/advice/work_precision_records.hpp"
 #include "harness/app/machine/machine_facts.hpp"
+#include "harness/app/run/resume_options.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
@@ -73,6 +74,7 @@ Verdict run_work_precision(const WorkPrecisionOptions& o) {
     if (o.resume) times = read_times(out->path() / times_file, job.plan);
     context = make_scene_context(job.plan, job.plan_text, job.types, threads, false);
     log = std::make_unique<PieceLog>(*out);
+    job.kept->emplace(*out);
     out->begin(context);
   }
   std::vector<std::string> names;
@@ -109,7 +111,11 @@ void add_work_precision_command(CLI::App& app, Action& action) {
       "  ulpgate work-precision --cases kepler --integrators leapfrog,yoshida8,gauss4 --types "
       "double,float128\n"
       "  ulpgate work-precision --cases pendulum3 --until 0.1 --types float,double --out W\n"
-      "  ulpgate work-precision --subjects sin,exp,kernel --types float,double");
+      "  ulpgate work-precision --cases robertson --until 1e11 --dt plan:1e-3..1e-12 --integrators "
+      "radau5,rodas3\n"
+      "  ulpgate work-precision --subjects sin,exp,kernel --types float,double\n"
+      "Errors are relative: of a stiff problem's state component by component, of another's to its largest "
+      "component, of a scene to its size.");
   auto o = std::make_shared<WorkPrecisionOptions>();
   verb->add_option(
       "--subjects", o->subjects,
@@ -122,9 +128,12 @@ void add_work_precision_command(CLI::App& app, Action& action) {
                    "all or names (`ulpgate list integrators`); those that do not apply are left out")
       ->capture_default_str();
   auto* steps = verb->add_option("--steps", o->steps,
-                                 "numbers of steps of trajectories: 64,128 or 64..4096, which doubles");
+                                 "numbers of equal steps of trajectories: 64,128 or 64..4096, which doubles; "
+                                 "without: 128..65536, and planned steps for stiff problems");
   verb->add_option("--dt", o->dt,
-                   "steps of scenes, s: 1e-5,1e-5/2; without: its own times 2 to its own over 16")
+                   "steps of scenes, s: 1e-5,1e-5/2; without: its own times 2 to its own over 16. Of "
+                   "trajectories plan:1e-6 or plan:1e-3..1e-12: steps found once in double for a tolerance, "
+                   "the same in every type")
       ->excludes(steps);
   verb->add_option(
       "--until", o->until,
@@ -133,8 +142,8 @@ void add_work_precision_command(CLI::App& app, Action& action) {
   verb->add_option("--samples", o->samples, "arguments of a function, states of a kernel")
       ->capture_default_str()
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32U));
-  verb->add_option("--digits", o->digits, "of true solutions")
-      ->capture_default_str()
+  verb->add_option("--digits", o->digits,
+                   "of true solutions; without: 2 or more beyond the widest type, 15 to 34")
       ->check(CLI::Range(5, most_truth_digits));
   verb->add_option("--budget", o->budget, "evaluations of a trajectory; more are refused")
       ->capture_default_str()
@@ -148,10 +157,7 @@ void add_work_precision_command(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(CLI::Range(0U, 4096U));
   verb->add_option("--out", o->out, "directory of work_precision*.jsonl and context.json");
-  auto* resume = verb->add_flag("--resume", o->resume,
-                                "go on with a run that was interrupted or killed; a new one starts");
-  verb->add_flag("--overwrite", o->overwrite, "write over the records of another plan, or a partial run")
-      ->excludes(resume);
+  add_resume_options(*verb, o->resume, o->overwrite);
   verb->add_flag("--json", o->json, "print the records");
   verb->callback([=, &action] { action = [=] { return run_work_precision(*o); }; });
 }

@@ -1,18 +1,27 @@
 """Tests of `ulpgate work-precision` through the program: records, schema, bytes, resumed and refused runs."""
 
-import contextlib
+import functools
 import json
-import os
 import pathlib
+import shutil
 import signal
-import subprocess
-import time
+import sys
 
 import jsonschema
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
+
+import program  # noqa: E402
+from program import ROOT, wait_for_pieces  # noqa: E402
+
+sys.path.insert(0, str(ROOT / "reports"))
+
+from ulpgate_report.records import work_precision_records  # noqa: E402
+from ulpgate_report.work_precision import axes, settings  # noqa: E402
+
+run = functools.partial(program.run, "work-precision")
+started = functools.partial(program.started, "work-precision")
 SCHEMA = json.loads(
     (ROOT / "reports/schema/work_precision.schema.json").read_text("utf-8")
 )
@@ -28,43 +37,12 @@ SIZES = {"trajectory": KEPLER, "scene": PENDULUM, "subjects": SUBJECTS}
 FILES = ["work_precision.jsonl", "work_precision_fits.jsonl"]
 
 
-def words(*more):
-    return [ULPGATE, "work-precision", *map(str, more)]
-
-
-def run(*more):
-    done = subprocess.run(words(*more), capture_output=True, text=True, cwd=ROOT)
-    return done.returncode, done.stdout, done.stderr
-
-
 def rows(text):
     return [json.loads(line) for line in text.splitlines()]
 
 
 def exact(out):
     return [(out / name).read_bytes() for name in FILES]
-
-
-@contextlib.contextmanager
-def started(*more):
-    """A run in the background, which does not outlive the test."""
-    process = subprocess.Popen(
-        words(*more),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=ROOT,
-    )
-    try:
-        yield process
-    finally:
-        process.kill()
-        process.communicate()
-
-
-def log_lines(out):
-    log = out / "units/log.txt"
-    return log.read_bytes().splitlines() if log.exists() else []
 
 
 @pytest.fixture(scope="module", params=sorted(SIZES))
@@ -113,8 +91,7 @@ def test_any_number_of_threads_gives_the_same_bytes(tmp_path, whole):
 def test_a_killed_run_goes_on_to_the_same_bytes(tmp_path, whole):
     size, out = whole
     with started(*size, "--threads", "1", "--out", tmp_path) as process:
-        while process.poll() is None and len(log_lines(tmp_path)) < 2:
-            time.sleep(0.002)
+        wait_for_pieces(tmp_path, 1, process)
         process.send_signal(signal.SIGKILL)
         process.wait()
     code, _, err = run(*size, "--resume", "--out", tmp_path)
@@ -184,6 +161,107 @@ def test_failed_settings_break_their_curve_and_have_no_error():
     assert [x["failure"] for x in fine] == [None] and fine[0]["final_error"] < 1e-9
 
 
+def test_planned_steps_make_curves_of_stiff_problems():
+    code, out, err = run(
+        *["--cases", "robertson", "--until", "1e11", "--types", "float,double"],
+        *["--integrators", "radau5,rodas3,rk4,gauss4", "--dt", "plan:1e-3..1e-6"],
+        *["--repeats", "0", "--json"],
+    )
+    assert code == 0, err
+    lines = [x for x in rows(out) if x["what"] == "work_precision"]
+    for line in rows(out):
+        jsonschema.validate(line, SCHEMA)
+        assert line["planned"]
+    tolerances = ["plan:1e-3", "plan:1e-4", "plan:1e-5", "plan:1e-6"]
+    found = {}
+    for x in lines:
+        found.setdefault((x["integrator"], x["type"]), []).append(x)
+    for curve in found.values():
+        assert [x["dt_text"] for x in curve] == tolerances
+        steps = [x["steps"] for x in curve]
+        assert steps == sorted(set(steps)), "a sharper tolerance has more steps"
+    # The same steps in every type.
+    for a, b in zip(found["radau5", "float"], found["radau5", "double"], strict=True):
+        assert a["steps"] == b["steps"] and a["dt"] == b["dt"]
+    for x in found["rodas3", "double"]:
+        assert x["failure"] is None and x["instants"] == 16
+        assert x["largest_error"] >= x["final_error"]
+    errors = [x["final_error"] for x in found["rodas3", "double"]]
+    assert errors == sorted(errors, reverse=True) and errors[-1] < 1e-3
+    assert found["radau5", "double"][0]["final_error"] < 1e-8
+    # Explicit methods and iterations that no stiff problem lets converge end, and say how.
+    for name in ("rk4", "gauss4"):
+        for x in found[name, "double"]:
+            assert x["failure"] in ("diverged", "refused") and x["why"]
+            assert x["largest_error"] is None and "instants" not in x
+
+
+def test_the_default_steps_of_a_stiff_problem_are_planned():
+    code, out, err = run(
+        *["--cases", "chemakzo", "--integrators", "rodas3", "--types", "float"],
+        *["--repeats", "0", "--json"],
+    )
+    assert code == 0, err
+    lines = [x for x in rows(out) if x["what"] == "work_precision"]
+    assert [x["dt_text"] for x in lines] == [f"plan:1e-{k}" for k in range(3, 13)]
+
+
+def test_the_largest_error_is_over_the_times_at_which_steps_end():
+    code, out, err = run(
+        *["--cases", "kepler", "--integrators", "pefrl", "--types", "double"],
+        *["--steps", "1000,1024,1025", "--repeats", "0", "--json"],
+    )
+    assert code == 0, err
+    found = {x["steps"]: x for x in rows(out) if x["what"] == "work_precision"}
+    assert {n: x["instants"] for n, x in found.items()} == {1000: 8, 1024: 16, 1025: 1}
+    assert found[1025]["largest_error"] == found[1025]["final_error"]
+    # The pericentre is the end: the error of the orbit is larger before it or there, not less.
+    assert found[1024]["largest_error"] >= found[1024]["final_error"] > 0
+
+
+def test_the_report_draws_the_front_that_the_program_found(tmp_path):
+    size = ["--cases", "kepler", "--types", "float,double", "--steps", "256..16384"]
+    size += ["--integrators", "pefrl,yoshida8,rk4,fehlberg78,gauss4,euler"]
+    code, _, err = run(*size, "--repeats", "3", "--out", tmp_path)
+    assert code == 0, err
+    context = json.loads((tmp_path / "context.json").read_text())
+    measured = settings.made_of(work_precision_records.load(tmp_path, context))
+    drawn = settings.front(measured.rows, axes.DEFAULT)
+    key = ("type", "integrator", "steps")
+    times = rows((tmp_path / "work_precision_timing.jsonl").read_text())
+    wanted = {tuple(x[k] for k in key) for x in times if x["on_front"]}
+    assert {tuple(x[k] for k in key) for x in drawn} == wanted
+    assert 3 < len(wanted) < len(times)
+
+
+def test_references_of_a_killed_run_are_not_computed_again(tmp_path, whole):
+    size, out = whole
+    if "--subjects" in size:
+        pytest.skip("functions have none to keep")
+    with started(*size, "--threads", "1", "--out", tmp_path) as process:
+        wait_for_pieces(tmp_path, 1, process)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    kept = sorted((tmp_path / "units/results").iterdir())
+    assert len(kept) == 1
+    before = kept[0].read_bytes()
+    code, _, err = run(*size, "--resume", "--out", tmp_path)
+    assert code == 0 and "computed again" not in err
+    assert exact(tmp_path) == exact(out) and not (tmp_path / "units").exists()
+    # A torn one, and one of which a digit was changed, is named and done again: to the same bytes.
+    for damaged in (before[: len(before) // 2], before.replace(b" 0x1.", b" 0x1.1", 1)):
+        with started(*size, "--threads", "1", "--out", tmp_path / "d") as process:
+            wait_for_pieces(tmp_path / "d", 1, process)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        file = next((tmp_path / "d/units/results").iterdir())
+        file.write_bytes(damaged)
+        code, _, err = run(*size, "--resume", "--out", tmp_path / "d")
+        assert code == 0 and f"{file}: damaged, torn" in err
+        assert exact(tmp_path / "d") == exact(out)
+        shutil.rmtree(tmp_path / "d")
+
+
 def test_what_is_over_the_budget_is_refused():
     code, out, err = run(
         *["--cases", "kepler", "--integrators", "gauss4", "--types", "double"],
@@ -199,6 +277,13 @@ REFUSED = [
     (2, ["--types", "decimal"], "type"),
     (2, ["--steps", "0"], "--steps"),
     (2, ["--steps", "64..32"], "ends before"),
+    (2, ["--cases", "robertson", "--dt", "plan:1e-20"], "1e-13 to 0.001"),
+    (2, ["--cases", "robertson", "--dt", "plan:1e-9..1e-3"], "fall"),
+    (2, ["--cases", "robertson", "--dt", "plan:"], "tolerance"),
+    (2, ["--cases", "pendulum3", "--dt", "plan:1e-6"], "none is among the cases"),
+    (2, ["--cases", "kepler", "--dt", "1e-5"], "--steps"),
+    (2, ["--cases", "collision", "--steps", "64"], "--steps"),
+    (2, ["--cases", "kepler", "--steps", "64", "--dt", "plan:1e-6"], "--steps"),
     (2, ["--cases", "kepler", "--until", "7"], "2 pi"),
     (2, ["--cases", "collision", "--dt", "1e-6,3e-7"], "--until"),
     (2, ["--cases", "collision", "--dt", "nonsense"], "nonsense"),

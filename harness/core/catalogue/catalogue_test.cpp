@@ -31,6 +31,8 @@ TEST(Catalogue, KnownVerdictsNameTypesAndCauses) {
   for (const auto& c : stress_catalogue()) {
     for (const auto& known : c.known) {
       EXPECT_GT(known.cause.size(), 15U) << c.key();
+      // A refusal is known by its text; a sentence of it, no word that any error could have.
+      EXPECT_EQ(known.says.size() > 15U, known.verdict == StressVerdict::refused) << c.key();
       if (known.types == "all") continue;
       for (std::size_t at = 0; at <= known.types.size();) {
         const std::size_t end = std::min(known.types.find(',', at), known.types.size());

@@ -53,7 +53,7 @@ int expect_known_verdicts(std::string_view token) {
       ++measured;
       StressCase c;
       c.known = form.known;
-      const auto standing = standing_of(c, token, row->verdict);
+      const auto standing = standing_of(c, token, *row);
       EXPECT_TRUE(standing.as_known) << problem.name << '/' << form.name << ' ' << token << ": "
                                      << to_string(row->verdict) << " instead of " << standing.expected
                                      << ", E " << row->error.value_or(-1) << ", kappa "

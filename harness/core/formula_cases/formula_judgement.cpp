@@ -59,6 +59,25 @@ bool good(StressVerdict v) {
   return v == StressVerdict::stable || v == StressVerdict::ill_conditioned;
 }
 
+// What a person is told of a result that is wrong: its worst component beside the true one.
+std::string wrong_result(const FormulaNumbers& value, const FormulaNumbers& truth) {
+  if (value.size() != truth.size())
+    return std::to_string(value.size()) + " results, true are " + std::to_string(truth.size());
+  const WideExponentRange wide;
+  std::size_t worst = 0;
+  double largest = -1;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double off = formula_error({value[i]}, {truth[i]}, FormulaNorm::each);
+    if (!(off <= largest)) {
+      largest = off;
+      worst = i;
+    }
+  }
+  const auto text = [](const FormulaNumber& x) { return x.str(8, std::ios_base::scientific); };
+  return (truth.size() > 1 ? "component " + std::to_string(worst + 1) + " is " : "the result is ") +
+         text(value[worst]) + ", true is " + text(truth[worst]);
+}
+
 // The first point of the scan at which the form is neither stable nor ill-conditioned; empty: none.
 std::string first_wrong_of(const FormulaProblem& problem, std::string_view form, const FormulaEngine& engine,
                            const ode::StopFlag& stop) {
@@ -105,7 +124,8 @@ void compare_with_reference(const FormulaProblem& problem, std::string_view form
   row.figures["agreement_misleads"] = misleads ? 1 : 0;
   row.figures["perturbed_evaluation_differs"] = moves ? 1 : 0;
   if (!misleads && !moves) return;
-  row.why = "the type and RealHP<4> agree on half of the digits";
+  row.why += row.why.empty() ? "" : "; ";
+  row.why += "the type and RealHP<4> agree on half of the digits";
   if (misleads) row.why += ", and both are wrong";
   if (moves) row.why += "; arguments moved by 2^13 roundoffs of RealHP<4> give another value";
 }
@@ -189,6 +209,7 @@ std::optional<StressRow> judge_formula(const FormulaProblem& problem, const Form
     row.correct_digits = digits_of(judged.error, format);
     note(row, "result", result.value);
     note(row, "truth", judged.truth);
+    if (!good(row.verdict)) row.why = wrong_result(result.value, judged.truth);
   }
   row.first_wrong = first_wrong_of(problem, form.name, engine, stop);
   if (row.first_wrong.empty() && !good(row.verdict)) row.first_wrong = problem.at;

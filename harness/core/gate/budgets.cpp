@@ -199,4 +199,34 @@ std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured, con
   return raises;
 }
 
+std::vector<Raise> tighten_budgets(Budgets& present, const std::vector<RowRecord>& records) {
+  std::map<std::pair<std::string, std::string>, std::string> lowered;
+  for (const RowRecord& r : records) {
+    const auto type = present.find(r.type);
+    if (type == present.end()) continue;
+    const auto row = type->second.rows.find(budget_key(r));
+    if (row == type->second.rows.end()) continue;
+    Budget& budget = row->second;
+    const auto stratum = find_stratum(r.stratum);
+    // A list whose worst error fell has lost its cases or got better: nobody but --update decides.
+    if (!stratum || !is_drawn(*stratum) || !budget.reason.empty()) continue;
+    if (!is_of_plan(r, type->second, budget)) continue;
+    for (const auto& column : limit_columns()) {
+      auto& limits = budget.*column.limits;
+      const auto limit = limits.find(r.stratum);
+      const double figure = r.summary.judged() > 0 ? column.figure(r.summary) : 0;
+      // Written so that a figure that is no number lowers nothing.
+      if (limit == limits.end() || !(figure >= 0) || !(figure < limit->second / ratchet)) continue;
+      const double after = column.limits == &Budget::p99_ulp ? figure : round_up(figure);
+      lowered[{r.type, row->first}] +=
+          fmt::format(" {} {} {:.4g} -> {:.4g};", r.stratum, column.key, limit->second, after);
+      limit->second = after;
+    }
+  }
+  std::vector<Raise> changes;
+  for (const auto& [key, what] : lowered)
+    changes.push_back({key.first, key.second, what.substr(1, what.size() - 2)});
+  return changes;
+}
+
 }  // namespace ulpgate

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/core/gate/findings/gate_finding.hpp"
 #include "harness/core/records/row_record.hpp"
 
 namespace ulpgate {
@@ -54,25 +55,6 @@ using Budgets = std::map<std::string, TypeBudgets>;  // by type token
 // "sin" for a real function, "ctan.re" for a part.
 [[nodiscard]] std::string budget_key(const RowRecord& record);
 
-enum class FindingKind {
-  regression,
-  another_plan,  // drawn with another seed or size than the budget
-  missing_budget,
-  missing_record,
-  incomplete,
-  lost_cases,  // a list whose worst error is far below its budget, or that is shorter
-  could_lower,
-};
-
-struct GateFinding {
-  FindingKind kind;
-  std::string type;
-  std::string row;
-  std::string message;
-  double severity = 0;          // measured / budget; the worst come first
-  std::vector<std::string> at;  // arguments that reproduce it
-};
-
 enum class MissingRecords { fail, ignore };
 
 // What to do with drawn strata of another seed or size than the budget's.
@@ -86,6 +68,10 @@ struct OtherPlan {
 [[nodiscard]] std::vector<GateFinding> judge_records(const std::vector<RowRecord>& records,
                                                      const Budgets& budgets, MissingRecords missing,
                                                      const OtherPlan& other_plan = {});
+
+// What each record was held against: its largest error, and the largest part of a limit.
+[[nodiscard]] std::vector<JudgedRow> judged_rows(const std::vector<RowRecord>& records,
+                                                 const Budgets& budgets);
 
 // The budgets that just hold for these records: figures rounded up to three significant digits.
 [[nodiscard]] Budgets measured_budgets(const std::vector<RowRecord>& records, std::uint64_t samples,
@@ -117,5 +103,10 @@ struct Raise {
 // measured stay.
 [[nodiscard]] std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured,
                                                 const std::string& reason);
+
+// Limits that are above twice what was measured at the budget's own points become what was measured, figures
+// rounded up to three digits; nothing becomes looser, and no list loses its worst cases by it.  Rows that
+// were raised for a reason stay: what they were raised for need not show here.  Returns what became tighter.
+[[nodiscard]] std::vector<Raise> tighten_budgets(Budgets& present, const std::vector<RowRecord>& records);
 
 }  // namespace ulpgate

@@ -4,14 +4,49 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "harness/core/gate/budgets.hpp"
+#include "harness/core/gate/findings/reproducer.hpp"
 #include "harness/core/gate/limits.hpp"
 #include "harness/core/verdict/verdict.hpp"
 
 namespace ulpgate {
 
 namespace {
+
+RowKind kind_of(const RowRecord& r) {
+  return r.subject_class == kernel_class ? RowKind::kernel : RowKind::function;
+}
+
+// What came out and what should have, of a result that no error in ULP describes.
+std::pair<std::string, std::string> words_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::finite:
+      return {"a value", "a value"};
+    case Outcome::nan:
+      return {"NaN", "a value"};
+    case Outcome::not_nan:
+      return {"a value", "NaN"};
+    case Outcome::inf:
+      return {"a number or the other infinity", "an infinity"};
+    case Outcome::zero_sign:
+      return {"a zero of the other sign", "a zero"};
+    case Outcome::overflow_spurious:
+      return {"an infinity", "a number inside the range"};
+    case Outcome::overflow_missed:
+      return {"a number", "an infinity, to which the exact value rounds"};
+    case Outcome::underflow_spurious:
+      return {"zero", "a number more than 1 ULP from it"};
+    case Outcome::nonzero_for_zero:
+      return {"a number", "zero"};
+    case Outcome::exception:
+      return {"an exception", "a value"};
+  }
+  return {};
+}
 
 class Judge {
  public:
@@ -20,7 +55,10 @@ class Judge {
 
   void judge(const RowRecord& r) {
     row_ = budget_key(r);
-    measured_[{r.type, row_, r.stratum}] = r.summary.judged() > 0 ? r.summary.max_error.value : 0;
+    kernels_ = r.subject_class == kernel_class;
+    const auto plan = budgets_.find(r.type);
+    samples_ = plan == budgets_.end() ? r.planned : plan->second.samples;
+    measured_.insert({r.type, row_, r.stratum});
     if (measured(r.summary.samples, r.planned) != Standing::pass)
       add(FindingKind::incomplete, r,
           fmt::format("{} of {} samples in {}", r.summary.samples, r.planned, r.stratum));
@@ -45,48 +83,78 @@ class Judge {
   std::vector<GateFinding> take() {
     for (const auto& [token, type] : budgets_) {
       for (const auto& [row, budget] : type.rows) {
-        for (const auto& [stratum, limit] : budget.max_ulp) look_for(token, row, stratum, limit);
+        for (const auto& [stratum, limit] : budget.max_ulp) look_for(token, row, stratum);
         for (const auto& [stratum, samples] : budget.samples)
-          if (!budget.max_ulp.contains(stratum)) look_for(token, row, stratum, 0);
+          if (!budget.max_ulp.contains(stratum)) look_for(token, row, stratum);
       }
     }
-    std::stable_sort(findings_.begin(), findings_.end(), [](const GateFinding& a, const GateFinding& b) {
-      if (a.kind != b.kind) return a.kind < b.kind;
-      return a.severity > b.severity;
-    });
+    sort_findings(findings_);
     return std::move(findings_);
   }
 
  private:
-  void add(FindingKind kind, const RowRecord& r, std::string message, double severity = 0,
-           std::vector<std::string> at = {}) {
-    findings_.push_back({kind, r.type, row_, std::move(message), severity, std::move(at)});
+  // A finding of the row: what an output needs to say where it stands and how it is seen again.
+  GateFinding& add(FindingKind kind, const RowRecord& r, std::string message, double severity = 0,
+                   std::vector<std::string> at = {}) {
+    GateFinding f{kind, r.type, row_, std::move(message), severity, std::move(at)};
+    f.of = kind_of(r);
+    f.stratum = r.stratum;
+    f.budget_file = r.type;
+    f.budget_key = row_;
+    f.reproduce = row_reproducer(f.of, r.subject, r.type, r.stratum, samples_, r.seed);
+    if (!f.at.empty()) f.again = std::exchange(f.reproduce, point_reproducer(r.subject, r.type, f.at));
+    // The record keeps the results of one point, that of the largest error.
+    if (!f.at.empty() && f.at == r.points.argmax) {
+      f.got = r.points.got;
+      f.wanted = r.points.exact;
+    }
+    return findings_.emplace_back(std::move(f));
+  }
+  static void set_figures(GateFinding& f, std::string_view what, double measured, double budget) {
+    f.what = what;
+    f.measured = measured;
+    f.budget = budget;
   }
 
-  // The budgeted strata that no record is of, and drawn ones whose budget could fall.
-  void look_for(const std::string& token, const std::string& row, const std::string& stratum, double limit) {
+  // The budgeted strata that no record is of.
+  void look_for(const std::string& token, const std::string& row, const std::string& stratum) {
     if (missing_ != MissingRecords::fail) return;
-    const auto it = measured_.find({token, row, stratum});
-    if (it == measured_.end()) {
-      findings_.push_back({FindingKind::missing_record,
-                           token,
-                           row,
-                           fmt::format("budgeted but not measured in {}", stratum),
-                           0,
-                           {}});
-      return;
+    if (!measured_.contains({token, row, stratum})) {
+      const TypeBudgets& type = budgets_.at(token);
+      const bool of_kernel =
+          std::ranges::find(kernel_strata, stratum, &StratumInfo::name) != kernel_strata.end();
+      GateFinding f{FindingKind::missing_record, token, row,
+                    fmt::format("budgeted but not measured in {}", stratum)};
+      f.of = kernels_ && of_kernel ? RowKind::kernel : RowKind::function;
+      f.stratum = stratum;
+      f.budget_file = token;
+      f.budget_key = row;
+      f.reproduce =
+          row_reproducer(f.of, row.substr(0, row.find('.')), token, stratum, type.samples, type.seed);
+      findings_.push_back(std::move(f));
     }
-    const auto id = find_stratum(stratum);
-    if (id && !is_drawn(*id)) return;
-    if (it->second < 0.5 * limit) {
-      findings_.push_back({FindingKind::could_lower,
-                           token,
-                           row,
-                           fmt::format("measured {:.4g} ULP in {}, budget {:.4g}: lower it with --update",
-                                       it->second, stratum, limit),
-                           0,
-                           {}});
+  }
+
+  // Limits of drawn strata that are far above what was measured.  A smaller run says nothing of them, and a
+  // list whose worst error fell may have lost its cases.
+  void note_slack(const RowRecord& r, const Budget& budget) {
+    std::string what;
+    std::optional<std::pair<double, double>> first;
+    for (const auto& column : limit_columns()) {
+      const auto& limits = budget.*column.limits;
+      const auto limit = limits.find(r.stratum);
+      const double figure = r.summary.judged() > 0 ? column.figure(r.summary) : 0;
+      if (limit == limits.end() || !(figure >= 0) || !(figure < limit->second / ratchet)) continue;
+      if (!first) first = {figure, limit->second};
+      what += fmt::format(" {} {:.4g}, budget {:.4g};", column.key, figure, limit->second);
     }
+    if (!first) return;
+    what.back() = ':';
+    GateFinding& f = add(FindingKind::could_lower, r,
+                         fmt::format("measured in {}{} {}", r.stratum, what,
+                                     budget.reason.empty() ? "can be lowered (--tighten)"
+                                                           : "was raised for a reason, --update lowers it"));
+    set_figures(f, "budget above twice the measured", first->first, first->second);
   }
 
   void judge_limit(const RowRecord& r, std::string_view words, double figure, double limit,
@@ -98,10 +166,11 @@ class Judge {
           fmt::format("no {} of {} judged results in {}", words, s.judged(), r.stratum));
     } else if (at_most(figure, limit) != Standing::pass) {
       const bool normwise = r.subject_class == kernel_class && words.starts_with("error over");
-      add(FindingKind::regression, r,
-          fmt::format("{} {:.6g}, {} {:.6g} ({}: got {}, exact {})", words, figure, limit_words, limit,
-                      r.stratum, r.points.got, r.points.exact),
-          figure / std::max(limit, 1e-300), normwise ? r.points.normwise_argmax : r.points.argmax);
+      GateFinding& f =
+          add(FindingKind::regression, r,
+              fmt::format("{} {:.6g}, {} {:.6g} ({})", words, figure, limit_words, limit, r.stratum),
+              figure / std::max(limit, 1e-300), normwise ? r.points.normwise_argmax : r.points.argmax);
+      set_figures(f, words, figure, limit);
     }
   }
 
@@ -116,10 +185,15 @@ class Judge {
         allowed = allowed_count(allowed, budgeted_samples(r, type, budget), s.samples);
       if (s.outcomes[o] <= allowed) continue;
       const auto first = r.points.first_mismatch.find(static_cast<Outcome>(o));
-      add(FindingKind::regression, r,
-          fmt::format("{} results of class {} in {}, budget {}", s.outcomes[o], outcome_names[o], r.stratum,
-                      allowed),
-          HUGE_VAL, first == r.points.first_mismatch.end() ? std::vector<std::string>{} : first->second);
+      GateFinding& f =
+          add(FindingKind::regression, r,
+              fmt::format("{} results of class {} in {}, budget {}", s.outcomes[o], outcome_names[o],
+                          r.stratum, allowed),
+              HUGE_VAL, first == r.points.first_mismatch.end() ? std::vector<std::string>{} : first->second);
+      set_figures(f, fmt::format("results of class {}", outcome_names[o]), static_cast<double>(s.outcomes[o]),
+                  static_cast<double>(allowed));
+      // Of this point the record keeps the class alone.
+      std::tie(f.got, f.wanted) = words_of(static_cast<Outcome>(o));
     }
   }
 
@@ -137,7 +211,11 @@ class Judge {
     }
     judge_mismatches(r, type, budget, true);
     const auto stratum = find_stratum(r.stratum);
-    if (stratum && !is_drawn(*stratum)) judge_list(r, budget);
+    if (stratum && !is_drawn(*stratum)) {
+      judge_list(r, budget);
+    } else if (missing_ == MissingRecords::fail) {
+      note_slack(r, budget);
+    }
   }
 
   // Every exponent: a count that the budget does not name is 0.
@@ -151,9 +229,12 @@ class Judge {
       }
       const std::uint64_t n = count_above(r.summary.histogram, e);
       if (n <= allowed) continue;
-      add(FindingKind::regression, r,
+      GateFinding& f = add(
+          FindingKind::regression, r,
           fmt::format("{} results err by more than 2^{} ULP in {}, budget {}", n, e, r.stratum, allowed),
           static_cast<double>(n) / static_cast<double>(std::max<std::uint64_t>(allowed, 1)), r.points.argmax);
+      set_figures(f, fmt::format("results above 2^{} ULP", e), static_cast<double>(n),
+                  static_cast<double>(allowed));
     }
   }
 
@@ -170,7 +251,7 @@ class Judge {
     const auto limit = budget.max_ulp.find(r.stratum);
     if (limit == budget.max_ulp.end()) return;
     const double found = r.summary.judged() > 0 ? r.summary.max_error.value : 0;
-    if (found >= 0 && found < 0.5 * limit->second) {
+    if (found >= 0 && found < limit->second / ratchet) {
       add(FindingKind::lost_cases, r,
           fmt::format(
               "measured {:.4g} ULP in {}, budget {:.4g}: were its worst cases lost?  If they are better "
@@ -232,30 +313,63 @@ class Judge {
     const WinsorizedMean now = winsorized_mean(histogram, p99->second);
     const double limit = mean->second + mean_allowance(now.variance, p99->second, n, then);
     if (at_most(now.mean, limit) == Standing::pass) return;
-    add(FindingKind::regression, r,
-        fmt::format("winsorized mean error {:.4g} ULP in {}, budget {:.4g} and {:.4g} by chance", now.mean,
-                    r.stratum, mean->second, limit - mean->second),
-        now.mean / std::max(limit, 1e-300), r.points.argmax);
+    GateFinding& f =
+        add(FindingKind::regression, r,
+            fmt::format("winsorized mean error {:.4g} ULP in {}, budget {:.4g} and {:.4g} by chance",
+                        now.mean, r.stratum, mean->second, limit - mean->second),
+            now.mean / std::max(limit, 1e-300), r.points.argmax);
+    set_figures(f, "winsorized mean error in ULP", now.mean, limit);
   }
 
   void judge_count(const RowRecord& r, std::uint64_t n, std::uint64_t allowed, const std::string& edge) {
     if (n <= allowed) return;
-    add(FindingKind::regression, r,
-        fmt::format(
-            "{} of {} results err by more than {} ULP in {}, by the budget and chance no more than {}", n,
-            r.summary.judged(), edge, r.stratum, allowed),
-        static_cast<double>(n) / static_cast<double>(allowed), r.points.argmax);
+    GateFinding& f =
+        add(FindingKind::regression, r,
+            fmt::format(
+                "{} of {} results err by more than {} ULP in {}, by the budget and chance no more than {}", n,
+                r.summary.judged(), edge, r.stratum, allowed),
+            static_cast<double>(n) / static_cast<double>(allowed), r.points.argmax);
+    set_figures(f, fmt::format("results above {} ULP", edge), static_cast<double>(n),
+                static_cast<double>(allowed));
   }
 
   const Budgets& budgets_;
   MissingRecords missing_;
   OtherPlan other_plan_;
   std::string row_;
-  std::map<std::array<std::string, 3>, double> measured_;  // by type, row, stratum
+  std::uint64_t samples_ = 0;                      // of the plan of the budgets
+  bool kernels_ = false;                           // the records are of kernels
+  std::set<std::array<std::string, 3>> measured_;  // by type, row, stratum
   std::vector<GateFinding> findings_;
 };
 
 }  // namespace
+
+std::vector<JudgedRow> judged_rows(const std::vector<RowRecord>& records, const Budgets& budgets) {
+  std::vector<JudgedRow> rows;
+  for (const RowRecord& r : records) {
+    JudgedRow& row =
+        rows.emplace_back(JudgedRow{kind_of(r), r.type, budget_key(r), r.stratum, "max_ulp", {}, {}, {}});
+    const Summary& s = r.summary;
+    if (s.judged() > 0 && s.max_error.value >= 0) row.measured = s.max_error.value;
+    const auto type = budgets.find(r.type);
+    if (type == budgets.end()) continue;
+    const auto found = type->second.rows.find(row.row);
+    if (found == type->second.rows.end()) continue;
+    const bool same = is_of_plan(r, type->second, found->second);
+    for (const auto& column : limit_columns()) {
+      if (!same && column.bounds == nullptr) continue;
+      const auto& limits = found->second.*(same ? column.limits : column.bounds);
+      const auto limit = limits.find(r.stratum);
+      if (limit == limits.end()) continue;
+      if (column.limits == &Budget::max_ulp) row.budget = limit->second;
+      const double figure = column.figure(s);
+      if (s.judged() > 0 && figure >= 0)
+        row.ratio = std::max(row.ratio.value_or(0), budget_ratio(figure, limit->second));
+    }
+  }
+  return rows;
+}
 
 std::vector<GateFinding> judge_records(const std::vector<RowRecord>& records, const Budgets& budgets,
                                        MissingRecords missing, const OtherPlan& other_plan) {

@@ -29,6 +29,9 @@ struct BoundColumn {
 inline constexpr std::array<BoundColumn, 2> bound_columns = {
     {{"bound_ulp", &Budget::bound_ulp}, {"bound_over_condition", &Budget::bound_over_condition}}};
 
+// A limit above this many times what was measured can be lowered.
+inline constexpr double ratchet = 2;
+
 // The smallest number of three significant digits that is not below x; infinity and NaN stay.
 [[nodiscard]] double round_up(double x);
 

@@ -146,13 +146,15 @@ class KernelSubject final : public Subject {
 
     // |got - exact| / |exact| in units of 2^-p; 0 where both are 0, infinite where only the exact one is.
     double normwise_error(std::size_t q) {
-      return scaled_root(distance2(results, q), norm2(q), std::numeric_limits<Real>::digits);
+      const int unit = unit_exponent(q);
+      return scaled_root(distance2(results, q, unit), norm2(q, unit), std::numeric_limits<Real>::digits);
     }
 
     double condition(std::size_t q) {
       using std::ldexp;
       constexpr int step_exponent = 5 - std::numeric_limits<Real>::digits;
-      const Reference norm = norm2(q);
+      const int unit = unit_exponent(q);
+      const Reference norm = norm2(q, unit);
       double sum = 0;
       shifted_ = wide_;
       for (std::size_t j = 0; j < wide_.size(); ++j) {
@@ -163,7 +165,7 @@ class KernelSubject final : public Subject {
           std::uint8_t threw = 0;
           subject_.reference_(shifted_.data(), moved_.data(), &threw, 1);
           if (threw != 0) return std::numeric_limits<double>::infinity();
-          largest = std::max(largest, scaled_root(distance2(moved_, q), norm, -step_exponent));
+          largest = std::max(largest, scaled_root(distance2(moved_, q, unit), norm, -step_exponent));
         }
         shifted_[j] = wide_[j];
         sum += largest;
@@ -193,20 +195,38 @@ class KernelSubject final : public Subject {
 
     static constexpr FloatFormat descriptor_format() { return float_format<Real>(); }
 
+    // Of the largest exact component of a quantity.  Squares are taken in units of 2^exponent: a reference
+    // that reaches no further than the type has none of its largest numbers.
+    [[nodiscard]] int unit_exponent(std::size_t q) const {
+      using std::abs;
+      using std::frexp;
+      Reference largest(0);
+      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
+        if (abs(exact[i]) > largest) largest = abs(exact[i]);
+      }
+      int exponent = 0;
+      if (largest > 0 && largest <= std::numeric_limits<Reference>::max()) (void)frexp(largest, &exponent);
+      return exponent;
+    }
+
     // |values - exact|^2 over the components of a quantity.
     template <class Value>
-    Reference distance2(const std::vector<Value>& values, std::size_t q) const {
+    Reference distance2(const std::vector<Value>& values, std::size_t q, int unit) const {
+      using std::ldexp;
       Reference sum(0);
       for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
-        const Reference d = widen<Reference>(values[i]) - exact[i];
+        const Reference d = ldexp(Reference(widen<Reference>(values[i]) - exact[i]), -unit);
         sum += d * d;
       }
       return sum;
     }
-    Reference norm2(std::size_t q) const {
+    Reference norm2(std::size_t q, int unit) const {
+      using std::ldexp;
       Reference sum(0);
-      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i)
-        sum += exact[i] * exact[i];
+      for (std::size_t i = first_[q]; i < first_[q] + kernel.outputs[q].components; ++i) {
+        const Reference x = ldexp(exact[i], -unit);
+        sum += x * x;
+      }
       return sum;
     }
 

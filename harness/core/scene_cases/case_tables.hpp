@@ -13,7 +13,7 @@ namespace ulpgate {
 [[nodiscard]] std::vector<KernelStateCase> geometry_states();  // spheres, facets, walls and boxes
 [[nodiscard]] std::vector<KernelStateCase> law_states();       // friction, dashpots, bonds, shear
 [[nodiscard]] std::vector<KernelStateCase> motion_states();    // velocities, integration, energies
-// Two coplanar facets under one sphere: states of two evaluations of a kernel.
+// A sphere on facets with common edges, as the engine has it.
 [[nodiscard]] std::vector<StressCase> shared_edge_states();
 
 // Scenes.

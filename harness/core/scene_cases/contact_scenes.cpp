@@ -3,12 +3,14 @@
 #include <cmath>
 
 #include "harness/core/scene_cases/case_tables.hpp"
+#include "harness/core/scene_cases/scene_text.hpp"
 
 namespace ulpgate {
 
 namespace {
 
 using dem::BodyQuantity;
+using namespace scene_text;
 
 const double pi = std::acos(-1.0);
 
@@ -33,30 +35,8 @@ SceneCase head_on(int ratio, const std::string& en) {
   c.form = "en_" + en + "_tc_over_dt_" + std::to_string(ratio);
   c.title = "two balls head on in " + std::to_string(ratio) +
             " steps a contact: restitution against that of a contact that never pulls";
-  c.toml = R"(
-name = "head_on"
-[[material]]
-name = "ball"
-density = "2500"
-collision_time = "1e-3"
-restitution_normal = ")" +
-           en + R"("
-[[sphere]]
-position = ["-0.01", "0", "0"]
-velocity = ["1", "0", "0"]
-radius = "0.01"
-[[sphere]]
-position = ["0.01+0.6e-3/)" +
-           std::to_string(ratio) + R"(", "0", "0"]
-velocity = ["-1", "0", "0"]
-radius = "0.01"
-[contacts]
-law = "viscoelastic"
-[run]
-dt = "1e-3/)" +
-           std::to_string(ratio) + R"("
-until = "1"
-)";
+  const std::string parts = "/" + std::to_string(ratio);
+  c.toml = head_on_balls(en, "-0.01", "0.01+0.6e-3" + parts) + run("1e-3" + parts);
   c.steps = static_cast<std::uint64_t>(2 * ratio + 6);
   if (ratio <= (en == "0.5" ? 2 : 5))
     c.known = {
@@ -83,27 +63,9 @@ SceneCase hertz_mass_ratio() {
   c.name = "hertz_contact";
   c.form = "mass_ratio_1e12";
   c.title = "a Hertz contact of 1e-6 kg with 1e6 kg: the light one comes back as fast, in the time of theory";
-  c.toml = R"(
-name = "hertz"
-[[material]]
-name = "steel"
-young = "1e9"
-poisson = "0"
-[[sphere]]
-position = ["-0.01-1e-6", "0", "0"]
-velocity = ["1", "0", "0"]
-radius = "0.01"
-mass = "1e-6"
-[[sphere]]
-position = ["0.01", "0", "0"]
-radius = "0.01"
-mass = "1e6"
-[contacts]
-law = "hertz_mindlin"
-[run]
-dt = "1e-7"
-until = "1"
-)";
+  c.toml = begin("hertz", "steel", {{"young", "1e9"}, {"poisson", "0"}}) +
+           sphere("-0.01-1e-6, 0, 0", "0.01", {{"velocity", "1, 0, 0"}, {"mass", "1e-6"}}) +
+           sphere("0.01, 0, 0", "0.01", {{"mass", "1e6"}}) + contacts("hertz_mindlin") + run("1e-7");
   c.steps = 160;
   c.outcome = [](const SceneTrial& t, StressRow& row) -> std::string {
     const double after = velocity(t.reference, 0, 0);
@@ -125,34 +87,15 @@ SceneCase grazing(const std::string& law, const std::string& form, const std::st
   c.form = form;
   c.title = "a ball meets a wall with velocity (" + vx + ", " + vy + ") and spin " + wz +
             ": the impact must not create energy";
-  c.toml = R"(
-name = "grazing"
-[[material]]
-name = "ball"
-density = "2500"
-young = ")" +
-           std::string(law == "hertz_mindlin" ? "1e9" : "1e7") + R"("
-poisson = "0.3"
-friction_angle = ")" +
-           friction + R"("
-collision_time = "5e-4"
-[[sphere]]
-position = ["0", "0.01+1e-7", "0"]
-velocity = [")" +
-           vx + R"(", ")" + vy + R"(", "0"]
-angular_velocity = ["0", "0", ")" +
-           wz + R"("]
-radius = "0.01"
-[[wall]]
-axis = "y"
-position = "0"
-[contacts]
-law = ")" + law +
-           R"("
-[run]
-dt = "1e-6"
-until = "1"
-)";
+  c.toml = begin("grazing", "ball",
+                 {{"density", "2500"},
+                  {"young", law == "hertz_mindlin" ? "1e9" : "1e7"},
+                  {"poisson", "0.3"},
+                  {"friction_angle", friction},
+                  {"collision_time", "5e-4"}}) +
+           sphere("0, 0.01+1e-7, 0", "0.01",
+                  {{"velocity", vx + ", " + vy + ", 0"}, {"angular_velocity", "0, 0, " + wz}}) +
+           wall("0") + contacts(law) + run("1e-6");
   c.steps = 1200;
   c.outcome = [](const SceneTrial& t, StressRow& row) -> std::string {
     const double ratio = t.reference.kinetic_energy() / t.kinetic_start;
@@ -173,36 +116,20 @@ SceneCase packed(int ratio) {
   c.form = "en_3e-3_tc_over_dt_" + std::to_string(ratio);
   c.title = "a ball pressed by twelve others with restitution 3e-3, in steps of tc/" + std::to_string(ratio) +
             ": it must come to rest";
-  c.toml = R"(
-name = "packed"
-[[material]]
-name = "ball"
-density = "2300"
-collision_time = "1e-3"
-restitution_normal = "3e-3"
-)";
+  c.toml = begin("packed", "ball",
+                 {{"density", "2300"}, {"collision_time", "1e-3"}, {"restitution_normal", "3e-3"}});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const std::string a : {"", "-"}) {
       for (const std::string b : {"", "-"}) {
         std::array<std::string, 3> x{"0", "0", "0"};
-        x[(axis + 1) % 3] = "\"" + a + "0.0199/sqrt(2)\"";
-        x[(axis + 2) % 3] = "\"" + b + "0.0199/sqrt(2)\"";
-        c.toml += "[[sphere]]\nposition = [" + x[0] + ", " + x[1] + ", " + x[2] +
-                  "]\nradius = \"0.01\"\nfixed = true\n";
+        x[(axis + 1) % 3] = a + "0.0199/sqrt(2)";
+        x[(axis + 2) % 3] = b + "0.0199/sqrt(2)";
+        c.toml += sphere(x[0] + ", " + x[1] + ", " + x[2], "0.01", {{"fixed", "true"}});
       }
     }
   }
-  c.toml += R"([[sphere]]
-position = ["0", "0", "0"]
-velocity = ["1e-3", "2e-4", "0"]
-radius = "0.01"
-[contacts]
-law = "viscoelastic"
-[run]
-dt = "1e-3/)" +
-            std::to_string(ratio) + R"("
-until = "1"
-)";
+  c.toml += sphere("0, 0, 0", "0.01", {{"velocity", "1e-3, 2e-4, 0"}}) + contacts("viscoelastic") +
+            run("1e-3/" + std::to_string(ratio));
   c.steps = static_cast<std::uint64_t>(4 * ratio);
   if (ratio <= 12)
     c.known = {
@@ -218,42 +145,12 @@ until = "1"
 }
 
 // Two spinning balls meet off centre and part; nothing but the account knows where the energy went.
-SceneCase accounted(const std::string& law, const std::string& young, const std::string& dt) {
+SceneCase accounted(const std::string& law, const std::string& young) {
   SceneCase c;
   c.name = "energy_account";
   c.form = law;
   c.title = "an oblique collision of two spinning balls: what is stored and lost must be what there was";
-  c.toml = R"(
-name = "account"
-[[material]]
-name = "ball"
-density = "2500"
-young = ")" +
-           young + R"("
-poisson = "0.3"
-friction_angle = "35"
-collision_time = "1e-4"
-restitution_normal = "0.7"
-restitution_tangential = "0.8"
-[[sphere]]
-position = ["-0.0101", "0.001", "-0.002"]
-velocity = ["1", "0.3", "0.2"]
-angular_velocity = ["5", "-70", "30"]
-radius = "0.01"
-[[sphere]]
-position = ["0.010468", "0.007", "0.003"]
-velocity = ["-1.2", "0.1", "-0.3"]
-angular_velocity = ["11", "20", "-60"]
-radius = "0.012"
-[contacts]
-law = ")" + law +
-           R"("
-[run]
-dt = ")" + dt +
-           R"("
-until = "1"
-record = ["energy"]
-)";
+  c.toml = text_of({law, young, "35", "0.010468"}, "account");
   c.steps = 1000;
   if (law == "hertz_mindlin")
     c.known = {
@@ -280,9 +177,9 @@ std::vector<SceneCase> contact_scenes() {
   for (const int ratio : {100, 10, 5, 3}) list.push_back(head_on(ratio, "3e-3"));
   for (const int ratio : {40, 20, 15, 12, 10}) list.push_back(packed(ratio));
   list.push_back(hertz_mass_ratio());
-  list.push_back(accounted("frictional", "1e8", "4e-7"));
-  list.push_back(accounted("hertz_mindlin", "1e9", "4e-7"));
-  list.push_back(accounted("viscoelastic", "1e8", "4e-7"));
+  list.push_back(accounted("frictional", "1e8"));
+  list.push_back(accounted("hertz_mindlin", "1e9"));
+  list.push_back(accounted("viscoelastic", "1e8"));
   for (const std::string law : {"frictional", "hertz_mindlin", "viscoelastic"}) {
     list.push_back(grazing(law, "5_degrees", "1", "-0.0875", "0"));
     list.push_back(grazing(law, "45_degrees", "0.3", "-0.3", "0"));

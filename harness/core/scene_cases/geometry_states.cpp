@@ -93,29 +93,18 @@ void add_spheres(std::vector<KernelStateCase>& list) {
                   .kernel = "sphere_sphere",
                   .inputs = "0 0 0 1e12 1.52e12 1.14e12 0 1e12",
                   .outcome = must_touch});
-  list.push_back(
-      {.name = "size_scale",
-       .form = "squares_underflow",
-       .title = "spheres so small that the square of their distance has no full precision",
-       .kernel = "sphere_sphere",
-       .inputs = "0 0 0 small/1e3 1.3*small/1e3 0.9*small/1e3 0 small/1e3",
-       .outcome = unit_normal,
-       .known = {{"float,double,long_double,float128", StressVerdict::unstable,
-                  "The distance is the root of a sum of squares that is not scaled, and the squares are "
-                  "subnormal: a property of the kernel, in float below 1e-19 m, in double below 1e-154 m."},
-                 {"mpfr62,mpfr150,cpp_bin_float62", StressVerdict::diverged,
-                  "The squares are 0 in a type without subnormal numbers, so the normal is divided by 0: a "
-                  "property of the kernel, at sizes of 2^-2^29 m."}}});
-  list.push_back(
-      {.name = "size_scale",
-       .form = "squares_overflow",
-       .title = "spheres so large that the square of their distance overflows",
-       .kernel = "sphere_sphere",
-       .inputs = "0 0 0 large*4 5*large 4*large 0 large*4",
-       .outcome = unit_normal,
-       .known = {{"all", StressVerdict::diverged,
-                  "The distance is the root of a sum of squares that is not scaled, and overflows before its "
-                  "root does: a property of the kernel, in float above 1e19 m, in double above 1e154 m."}}});
+  list.push_back({.name = "size_scale",
+                  .form = "squares_underflow",
+                  .title = "spheres so small that the square of their distance has no full precision",
+                  .kernel = "sphere_sphere",
+                  .inputs = "0 0 0 small/1e3 1.3*small/1e3 0.9*small/1e3 0 small/1e3",
+                  .outcome = unit_normal});
+  list.push_back({.name = "size_scale",
+                  .form = "squares_overflow",
+                  .title = "spheres so large that the square of their distance overflows",
+                  .kernel = "sphere_sphere",
+                  .inputs = "0 0 0 large*4 5*large 4*large 0 large*4",
+                  .outcome = unit_normal});
   list.push_back({.name = "far_from_the_origin",
                   .form = "scan",
                   .title = "two spheres of 1 m, overlap 0.5 m, moved to (s, s, s): where the contact is lost",
@@ -182,28 +171,27 @@ void add_facets(std::vector<KernelStateCase>& list) {
                   .kernel = "facet_sphere",
                   .inputs = "0 0 0 1 0.3 0.2 0.5 0.15+1e-4 0.1 0.5 0.15 0.4 0.5",
                   .outcome = unit_normal});
-  list.push_back(
-      {.name = "facet_scale",
-       .form = "1e-12",
-       .title = "a triangle and a sphere of 1e-12 m",
-       .kernel = "facet_sphere",
-       .inputs = "0 0 0 1e-12 0 0 0 1e-12 0 2.5e-13 2.5e-13 2e-13 5e-13",
-       .truth = {{0, {"3e-13"}}, {1, {"0", "0", "1"}}},
-       .outcome = must_touch,
-       .known = {{"float", StressVerdict::unstable,
-                  "The square of the cross product of two edges is the fourth power of a length, 1e-48, "
-                  "which is 0 in float: a property of the kernel; scenes refuse such facets."}}});
-  list.push_back(
-      {.name = "facet_scale",
-       .form = "1e12",
-       .title = "a triangle and a sphere of 1e12 m",
-       .kernel = "facet_sphere",
-       .inputs = "0 0 0 1e12 0 0 0 1e12 0 2.5e11 2.5e11 2e11 5e11",
-       .truth = {{0, {"3e11"}}, {1, {"0", "0", "1"}}},
-       .outcome = must_touch,
-       .known = {{"float", StressVerdict::unstable,
-                  "The square of the cross product of two edges is the fourth power of a length, 1e48, which "
-                  "overflows in float: a property of the kernel; scenes refuse such facets."}}});
+  list.push_back({.name = "facet_scale",
+                  .form = "1e-12",
+                  .title = "a triangle and a sphere of 1e-12 m",
+                  .kernel = "facet_sphere",
+                  .inputs = "0 0 0 1e-12 0 0 0 1e-12 0 2.5e-13 2.5e-13 2e-13 5e-13",
+                  .truth = {{0, {"3e-13"}}, {1, {"0", "0", "1"}}},
+                  .outcome = must_touch});
+  list.push_back({.name = "facet_scale",
+                  .form = "1e12",
+                  .title = "a triangle and a sphere of 1e12 m",
+                  .kernel = "facet_sphere",
+                  .inputs = "0 0 0 1e12 0 0 0 1e12 0 2.5e11 2.5e11 2e11 5e11",
+                  .truth = {{0, {"3e11"}}, {1, {"0", "0", "1"}}},
+                  .outcome = must_touch});
+  list.push_back({.name = "facet_scale",
+                  .form = "1e-12_beyond_an_edge",
+                  .title = "a sphere of 1e-12 m beyond the long edge of a triangle as small",
+                  .kernel = "facet_sphere",
+                  .inputs = "0 0 0 1e-12 0 0 0 1e-12 0 1e-12 1e-12 0 1e-12",
+                  .truth = {{0, {"1e-12*(1-sqrt(0.5))"}}, {1, {"sqrt(0.5)", "sqrt(0.5)", "0"}}},
+                  .outcome = must_touch});
   list.push_back({.name = "facet_far_from_the_origin",
                   .form = "scan",
                   .title = "a triangle and a sphere, overlap 0.25, moved to (s, s, s)",
@@ -260,16 +248,12 @@ void add_boxes(std::vector<KernelStateCase>& list) {
                   .inputs = "0 0 0 1 2 3 1 0 0 0 1+2*u 0.5 0.5 0.5",
                   .truth = {{0, {"0.5-2*u"}}, {1, {"1", "0", "0"}}},
                   .outcome = must_touch});
-  list.push_back(
-      {.name = "centre_on_a_box",
-       .form = "least_step_outside",
-       .title = "a box so small that the square of a step out of it is 0",
-       .kernel = "box_sphere",
-       .inputs = "0 0 0 small small small 1 0 0 0 small*(1+2*u) 0 0 small",
-       .outcome = unit_normal,
-       .known = {{"all", StressVerdict::diverged,
-                  "The distance to a box is the root of a square that underflows, and the normal is divided "
-                  "by it without a look at 0: a property of the kernel, in boxes below 1e-19 m in float."}}});
+  list.push_back({.name = "centre_on_a_box",
+                  .form = "least_step_outside",
+                  .title = "a box so small that the square of a step out of it is 0",
+                  .kernel = "box_sphere",
+                  .inputs = "0 0 0 small small small 1 0 0 0 small*(1+2*u) 0 0 small",
+                  .outcome = unit_normal});
   list.push_back({.name = "medial_plane",
                   .form = "straight",
                   .title = "a centre as far from one face as from another: the lower axis wins",

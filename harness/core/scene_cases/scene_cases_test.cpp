@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "harness/core/scene_cases/case_tables.hpp"
-#include "harness/core/scene_cases/network_vibrations.hpp"
+#include "harness/core/scene_cases/scene_text.hpp"
 #include "harness/core/scene_cases/scene_transform.hpp"
 #include "harness/core/subject/registry.hpp"
 
@@ -49,7 +49,7 @@ TEST(SceneCases, StatesAreAsKnownInEveryType) {
     for (const auto& type : all_types()) {
       const auto row = c.run(type.token, no_stop);
       ASSERT_TRUE(row) << c.key();
-      EXPECT_TRUE(standing_of(c, type.token, row->verdict).as_known)
+      EXPECT_TRUE(standing_of(c, type.token, *row).as_known)
           << c.key() << ' ' << type.token << ": " << to_string(row->verdict) << ' ' << row->why;
     }
   }
@@ -61,7 +61,7 @@ TEST(SceneCases, ScenesAreAsKnownInFloat) {
   for (const auto& c : cases) {
     const auto row = c.run("float", no_stop);
     ASSERT_TRUE(row) << c.key();
-    EXPECT_TRUE(standing_of(c, "float", row->verdict).as_known)
+    EXPECT_TRUE(standing_of(c, "float", *row).as_known)
         << c.key() << ": " << to_string(row->verdict) << ' ' << row->why;
   }
 }
@@ -107,25 +107,25 @@ TEST(KernelState, AScanTellsItsFirstWrongArgument) {
   EXPECT_EQ(find(cases, "state/absorbed_motion/scan").run("float", no_stop)->first_wrong, "s = 2^-24");
 }
 
-constexpr const char* pair_of_balls = R"(
-name = "pair"
-[[material]]
-name = "ball"
-density = "1000"
-stiffness = "1e5"
-[[sphere]]
-position = ["0", "0.5", "0"]
-velocity = ["1", "0", "0"]
-radius = "0.01"
-[[sphere]]
-position = ["0.0199", "0.5", "0"]
-radius = "0.01"
-[contacts]
-law = "frictional"
-[run]
-dt = "1e-5"
-until = "1"
-)";
+const std::string pair_of_balls =
+    scene_text::begin("pair", "ball", {{"density", "1000"}, {"stiffness", "1e5"}}) +
+    scene_text::sphere("0, 0.5, 0", "0.01", {{"velocity", "1, 0, 0"}}) +
+    scene_text::sphere("0.0199, 0.5, 0", "0.01") + scene_text::contacts("frictional") +
+    scene_text::run("1e-5");
+
+TEST(SceneText, SaysExpressionsTriplesAndWordsAsTheReaderWantsThem) {
+  EXPECT_EQ(
+      scene_text::section("[[sphere]]",
+                          {{"position", "0, 1e-3+sqrt(2), -(1+2)"}, {"radius", "3/2"}, {"fixed", "true"}}),
+      "[[sphere]]\nposition = [\"0\", \"1e-3+sqrt(2)\", \"-(1+2)\"]\nradius = \"3/2\"\nfixed = true\n");
+  const scenes::Scene scene = scene_of(pair_of_balls + scene_text::wall("0.1") +
+                                       scene_text::section("[[bond]]", {{"bodies", "[0, 1]"}}));
+  EXPECT_EQ(scene.spheres.at(0).velocity, (scenes::Triple{"1", "0", "0"}));
+  EXPECT_EQ(scene.spheres.at(1).position, (scenes::Triple{"0.0199", "0.5", "0"}));
+  EXPECT_EQ(scene.walls.at(0).position, "0.1");
+  EXPECT_EQ(scene.bonds.at(0).second, 1);
+  EXPECT_EQ(scene.materials.at(0).stiffness, "1e5");
+}
 
 TEST(SceneTrial, TellsRoundingFromSteps) {
   SceneCase c;
@@ -182,25 +182,6 @@ TEST(SceneTransform, WallsStayAcrossTheirAxes) {
   t.map.m = {{{2, -1, 2}, {2, 2, -1}, {-1, 2, 2}}};
   t.map.divisor = 3;
   EXPECT_THROW((void)t.apply(scene), std::invalid_argument);
-}
-
-// Closed forms: 2 kn/m along the normal, 7 ks/m across with rotation of two equal spheres; and the leapfrog
-// itself on either side of the limit.
-TEST(NetworkVibrations, OfAPairAreThoseOfTheory) {
-  const auto engine = dem::make_engine("double", dem::Level::own, scene_of(pair_of_balls), {});
-  engine->step(1);
-  auto springs = linear_springs(*engine);
-  ASSERT_EQ(springs.size(), 1U);
-  const double m = engine->mass(0);
-  EXPECT_NEAR(NetworkVibrations(*engine, springs, false).largest_frequency(), std::sqrt(2 * 1e5 / m), 1e-6);
-  springs[0].ks = 5e4;
-  EXPECT_NEAR(NetworkVibrations(*engine, springs, true).largest_frequency(), std::sqrt(7 * 5e4 / m), 1e-6);
-  springs[0].ks = 0;
-  const double zeta = 0.3;
-  const double omega = std::sqrt(2 * 1e5 / m);
-  springs[0].cn = zeta * omega * m;
-  EXPECT_NEAR(NetworkVibrations(*engine, springs, false).largest_stable_step() * omega,
-              2 * (std::sqrt(1 + zeta * zeta) - zeta), 1e-5);
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/scenes/reader/scene_reader.hpp"
+#include "harness/core/scene_cases/scene_text.hpp"
+#include "harness/core/scene_cases/scene_trial.hpp"
 
 namespace ulpgate {
 namespace {
@@ -15,22 +16,13 @@ namespace {
 using Node = std::array<int, 3>;
 
 std::unique_ptr<dem::DemEngine> chain(const std::vector<Node>& nodes) {
-  std::string text = R"(name = "chain"
-[[material]]
-name = "m"
-density = "2500"
-young = "1e7"
-poisson = "0.3"
-friction_angle = "20"
-)";
+  std::string text = scene_text::begin("chain", "m", {{"density", "2500"}});
   for (const Node& n : nodes) {
-    text += "[[sphere]]\nposition = [\"" + std::to_string(n[0]) + "\", \"" + std::to_string(n[1]) + "\", \"" +
-            std::to_string(n[2]) + "\"]\nradius = \"0.01\"\n";
+    text += scene_text::sphere(
+        std::to_string(n[0]) + ", " + std::to_string(n[1]) + ", " + std::to_string(n[2]), "0.01");
   }
-  text += "[contacts]\nlaw = \"frictional\"\n[run]\ndt = \"1e-6\"\nuntil = \"1e-3\"\n";
-  const auto result = scenes::read_scene(text, "chain.toml");
-  for (const auto& e : result.errors) ADD_FAILURE() << e.text();
-  return dem::make_engine("double", dem::Level::own, result.scene.value(), {});
+  text += scene_text::contacts("frictional") + scene_text::run("1e-6", "1e-3");
+  return dem::make_engine("double", dem::Level::own, scene_of(text), {});
 }
 
 long squared_distance(const Node& a, const Node& b) {

@@ -4,40 +4,25 @@
 #include <gtest/gtest.h>
 
 #include "harness/core/kernels/kernel_audit.hpp"
+#include "harness/core/scene_cases/scene_text.hpp"
+#include "harness/core/scene_cases/scene_trial.hpp"
 #include "kernels/scenes/reader/scene_reader.hpp"
 #include "reference/types/descriptor.hpp"
 
 namespace ulpgate {
 namespace {
 
-scenes::Scene two_spheres(const std::string& run) {
-  const auto result = scenes::read_scene(R"(name = "two"
-[[material]]
-name = "m"
-density = "2500"
-young = "1e7"
-poisson = "0.3"
-friction_angle = "20"
-[[sphere]]
-position = ["0", "0", "0"]
-velocity = ["0.3", "0.1", "0"]
-radius = "0.01"
-[[sphere]]
-position = ["0.02", "0", "0"]
-radius = "0.01"
-[contacts]
-law = "frictional"
-[run]
-dt = "1e-6"
-until = "1e-3"
-)" + run,
-                                         "two.toml");
-  for (const auto& e : result.errors) ADD_FAILURE() << e.text();
-  return result.scene.value();
+scenes::Scene two_spheres() {
+  return scene_of(
+      scene_text::begin(
+          "two", "m", {{"density", "2500"}, {"young", "1e7"}, {"poisson", "0.3"}, {"friction_angle", "20"}}) +
+      scene_text::sphere("0, 0, 0", "0.01", {{"velocity", "0.3, 0.1, 0"}}) +
+      scene_text::sphere("0.02, 0, 0", "0.01") + scene_text::contacts("frictional") +
+      scene_text::run("1e-6", "1e-3"));
 }
 
 TEST(Compare, SameStateSameNumbersThenApart) {
-  const auto scene = two_spheres("");
+  const auto scene = two_spheres();
   const auto tested = dem::make_engine("double", dem::Level::own, scene, {});
   const auto reference = dem::make_engine("double", dem::Level::reference, scene, {});
   reference->restore(tested->save(), dem::Constants::from_text);
@@ -60,7 +45,7 @@ TEST(Compare, StepsFollowTheDecades) {
 }
 
 TEST(Ladder, NamesTheDoubleInAMass) {
-  auto scene = two_spheres("");
+  auto scene = two_spheres();
   EXPECT_TRUE(short_constants(*dem::make_engine("double", dem::Level::reference, scene, {})).empty());
   EXPECT_TRUE(audit_scene(scene).empty());
   ASSERT_FALSE(scenes::apply_override(scene, "mass=yade"));
@@ -68,7 +53,7 @@ TEST(Ladder, NamesTheDoubleInAMass) {
 }
 
 TEST(Ladder, NamesAConstantThatEndsWithDouble) {
-  auto scene = two_spheres("");
+  auto scene = two_spheres();
   // 0.1 as a double would write it, in a scene that was written by a program.
   scene.spheres[0].velocity[0] = "0.1000000000000000055511151231257827021181583404541015625";
   const auto found = short_constants(*dem::make_engine("double", dem::Level::reference, scene, {}));

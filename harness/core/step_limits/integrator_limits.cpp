@@ -143,6 +143,32 @@ void add_iteration(StressRow& row, const Refusal& refusal, LinearProblem problem
   }
 }
 
+// A limit in print that is of another arrangement of the coefficients: both are computed, and the printed one
+// must be that of the arrangement that it is said to be of.
+void compare_with_other_arrangement(StressRow& row, const StabilityTheory& theory,
+                                    std::string_view integrator, double spacing) {
+  const OtherArrangement* other = other_arrangement(integrator);
+  if (other == nullptr) return;
+  const auto other_theory = theory_of_other_arrangement(integrator);
+  const StableSet set = find_stable_set([&](double z) { return other_theory->oscillator_excess(z); },
+                                        [](double) { return 1e-28; }, scan_end, spacing);
+  const double limit = set.limit().value_or(HUGE_VAL);
+  const int own_order = theory.oscillator_order().value_or(0);
+  const int order = other_theory->oscillator_order().value_or(0);
+  row.figures["printed_elsewhere"] = other->printed;
+  row.figures["other_arrangement_limit"] = limit;
+  row.figures["other_arrangement_order"] = order;
+  row.figures["order"] = own_order;
+  row.why += fmt::format(
+      "; tables give {:.7g}, which is the limit ({:.8g}) of {}, of order {}; this is {}, of order {}",
+      other->printed, limit, other->other, order, other->own, own_order);
+  if (std::abs(limit - other->printed) <= 1e-6 && order == other->other_order &&
+      own_order == other->own_order)
+    return;
+  row.verdict = StressVerdict::wrong_outcome;
+  row.why += ": the theory of one of them is not what it is said to be";
+}
+
 void compare(StressRow& row, Measured& measured, const StableSet& found, const StabilityTheory& theory,
              LinearProblem problem, std::string_view integrator, double spacing) {
   const double end = found.scanned_to;
@@ -186,11 +212,13 @@ void compare(StressRow& row, Measured& measured, const StableSet& found, const S
     row.verdict = StressVerdict::unstable;
     row.figures.erase("limit");
     row.figures["growth_seen_from"] = *limit;
+    row.first_wrong = fmt::format("z = {:.3g}", *limit);
     add_growth_from_nothing(row, measured, theory, problem);
     row.why = fmt::format(
         "no stable step: the solution grows by {:.4g} z^{:.0f} a step; above rounding from z = {:.3g} on",
         row.figures["growth_coefficient_theory"], row.figures["growth_power"], *limit);
   }
+  if (problem == LinearProblem::oscillator) compare_with_other_arrangement(row, theory, integrator, spacing);
   if (const KnownLimit* known = known_limit(integrator)) {
     const auto& published = problem == LinearProblem::oscillator ? known->oscillator : known->decay;
     if (published) row.figures["published"] = *published;

@@ -16,7 +16,8 @@ enum class LinearProblem { oscillator, decay };  // q'' = -q; y' = -y
 // the limit, "gaps_hidden_by_rounding" of those of the theory that are too shallow for the type,
 // "reentry_1_from", "reentry_1_to" ... of stable intervals above it, "growth_at_1.01_limit" and what theory
 // says of it, and "step_matrix_error_u", the largest difference from theory below the limit in units of
-// rounding.
+// rounding.  Of a method whose limit in print is of another arrangement of its coefficients also that limit,
+// as printed and as computed, and the orders of both.
 [[nodiscard]] StressRow measure_step_limit(const StabilityEngine& engine, LinearProblem problem,
                                            std::string_view integrator, const ode::StopFlag& stop);
 

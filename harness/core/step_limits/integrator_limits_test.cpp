@@ -47,6 +47,40 @@ TEST(StabilityTheory, HasTheKnownLimits) {
   EXPECT_GE(checked, 15);
 }
 
+// The half traces 1 - z^2/2 + z^4/24 - 7 z^6/3456 and 1 - z^2/2 - 637 z^4/5184 - 7 z^6/3456, written out.
+TEST(StabilityTheory, OfRuthDependsOnTheArrangementOfHisCoefficients) {
+  const auto own = stability_theory("ruth3");
+  const auto other = theory_of_other_arrangement("ruth3");
+  ASSERT_NE(own, nullptr);
+  ASSERT_NE(other, nullptr);
+  for (double z = 0.1; z < 4; z += 0.1) {
+    const double w = z * z;
+    const double common = 1 - w / 2 - 7 * w * w * w / 3456;
+    EXPECT_NEAR(own->oscillator_excess(z), std::abs(common + w * w / 24) - 1, 1e-12) << z;
+    EXPECT_NEAR(other->oscillator_excess(z), std::abs(common - 637 * w * w / 5184) - 1, 1e-12) << z;
+  }
+  const auto limit = [](const StabilityTheory& t) {
+    return find_stable_set([&](double z) { return t.oscillator_excess(z); }, tiny, 12, 0.02).limit();
+  };
+  EXPECT_NEAR(limit(*own).value_or(0), 2.507481, 1e-6);
+  EXPECT_NEAR(limit(*other).value_or(0), 1.567387, 1e-6);
+  EXPECT_EQ(own->oscillator_order(), 3);
+  EXPECT_EQ(other->oscillator_order(), 1);
+  EXPECT_EQ(stability_theory("yoshida8")->oscillator_order(), 8);
+  EXPECT_EQ(other_arrangement("yoshida8"), nullptr);
+  EXPECT_EQ(theory_of_other_arrangement("rk4"), nullptr);
+}
+
+TEST(MeasuredLimit, OfRuthIsToldBesideThePrintedOne) {
+  const StressRow row = measured("double", LinearProblem::oscillator, "ruth3");
+  EXPECT_EQ(row.verdict, StressVerdict::stable) << row.why;
+  EXPECT_NEAR(figure(row, "limit"), 2.507481, 1e-6);
+  EXPECT_NEAR(figure(row, "other_arrangement_limit"), 1.567387, 1e-6);
+  EXPECT_EQ(figure(row, "order"), 3);
+  EXPECT_EQ(figure(row, "other_arrangement_order"), 1);
+  EXPECT_NE(row.why.find("1.567387"), std::string::npos) << row.why;
+}
+
 // A-stable: below 1 on the whole real axis, not above 1 on the imaginary one; Radau vanishes at infinity and
 // Gauss does not.
 TEST(StabilityTheory, OfImplicitMethodsHasNoLimit) {
@@ -145,8 +179,7 @@ TEST(IntegratorLimits, AreAsKnownInNarrowTypes) {
     for (const char* token : {"float", "double"}) {
       const std::optional<StressRow> row = c.run(token, {});
       ASSERT_TRUE(row) << c.key();
-      EXPECT_TRUE(standing_of(c, token, row->verdict).as_known)
-          << c.key() << " " << token << ": " << row->why;
+      EXPECT_TRUE(standing_of(c, token, *row).as_known) << c.key() << " " << token << ": " << row->why;
       for (const auto& [name, value] : row->figures) EXPECT_TRUE(std::isfinite(value)) << c.key() << name;
     }
     EXPECT_FALSE(c.run("no_such_type", {}));

@@ -19,6 +19,8 @@ class StabilityTheory {
   // stability function R, and the spectral radius - 1 of either.
   [[nodiscard]] virtual double oscillator_excess(double z) const = 0;
   [[nodiscard]] virtual double oscillator_growth(double z) const = 0;
+  // The highest power of z to which a step on the oscillator is exact; nothing where it is not computed.
+  [[nodiscard]] virtual std::optional<int> oscillator_order() const { return std::nullopt; }
   // |R(-z)| - 1 on y' = -y; nothing of a splitting method.
   [[nodiscard]] virtual std::optional<double> decay_excess(double z) const = 0;
 };
@@ -41,6 +43,19 @@ struct KnownLimit {
 };
 // nullptr where none is known.
 [[nodiscard]] const KnownLimit* known_limit(std::string_view integrator);
+
+// A limit in print that is of the coefficients of a method in another arrangement.
+struct OtherArrangement {
+  std::string_view integrator;
+  double printed;              // z = omega dt, to six decimals
+  std::string_view own;        // how the method itself is arranged
+  std::string_view other;      // and how what the printed limit is of
+  int own_order, other_order;  // on the oscillator: the power of z to which the step is that of exp
+};
+// Of Ruth's method, nullptr for others.
+[[nodiscard]] const OtherArrangement* other_arrangement(std::string_view integrator);
+// The theory of the other arrangement, of the same coefficients; null where there is none.
+[[nodiscard]] std::unique_ptr<StabilityTheory> theory_of_other_arrangement(std::string_view integrator);
 
 // Fixed-point iteration of the stages of the Gauss method of `stages` stages on y' = mu y, mu = iz or -z.
 enum class Axis { imaginary, real };

@@ -62,13 +62,16 @@ double unit_roundoff(int significand_bits) {
   return std::ldexp(1.0, -significand_bits);
 }
 
-StressStanding standing_of(const StressCase& c, std::string_view token, StressVerdict verdict) {
+StressStanding standing_of(const StressCase& c, std::string_view token, const StressRow& row) {
   for (const auto& known : c.known) {
     if (!names_type(known.types, token)) continue;
-    return {verdict == known.verdict, known.cause, std::string(to_string(known.verdict))};
+    const bool text_holds = known.verdict != StressVerdict::refused ||
+                            (!known.says.empty() && row.why.find(known.says) != std::string::npos);
+    return {row.verdict == known.verdict && text_holds, known.cause, std::string(to_string(known.verdict)),
+            known.says};
   }
-  const bool good = verdict == StressVerdict::stable || verdict == StressVerdict::ill_conditioned;
-  return {good, "", "stable"};
+  const bool good = row.verdict == StressVerdict::stable || row.verdict == StressVerdict::ill_conditioned;
+  return {good, "", "stable", ""};
 }
 
 }  // namespace ulpgate

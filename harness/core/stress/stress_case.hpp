@@ -42,6 +42,9 @@ struct KnownVerdict {
   std::string types;  // "all", or tokens separated by commas
   StressVerdict verdict;
   std::string cause;  // one sentence: why it is so, and of what it is a property
+  // Of a refusal, part of its text that other refusals do not have: one with another text is not the known
+  // one, and where this is empty none is.
+  std::string says = {};
 };
 
 struct StressRow {
@@ -77,7 +80,8 @@ struct StressStanding {
   bool as_known;         // stable or ill_conditioned with nothing else known, or the verdict that is known
   std::string cause;     // of the known verdict
   std::string expected;  // "stable", or the known verdict of this type
+  std::string says;      // of a known refusal: the part of its text that is held to
 };
-[[nodiscard]] StressStanding standing_of(const StressCase& c, std::string_view token, StressVerdict verdict);
+[[nodiscard]] StressStanding standing_of(const StressCase& c, std::string_view token, const StressRow& row);
 
 }  // namespace ulpgate

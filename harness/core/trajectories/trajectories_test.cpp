@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "harness/core/subject/registry.hpp"
+#include "harness/core/trajectories/published_values.hpp"
 #include "harness/core/trajectories/trajectory_cases.hpp"
 #include "harness/core/trajectories/truth.hpp"
 
@@ -32,6 +33,51 @@ TEST(Truth, RefusesWhatIsNone) {
   EXPECT_THROW((void)true_solution("hires", "1", 25, {}), std::invalid_argument);
   EXPECT_THROW((void)true_solution("hires", "321.8122", 0, {}), std::invalid_argument);
   EXPECT_THROW((void)true_solution("hires", "321.8122", most_truth_digits + 1, {}), std::invalid_argument);
+}
+
+TEST(PublishedValues, AreComparedDigitByDigit) {
+  const std::vector<TrueValue> truth{{"1.234567890123456789012345", 25}, {"-2.5e-3459", 25}};
+  const auto agreement = [&](const std::string& value, std::size_t component = 0) {
+    return agreement_with_truth({"p", "1", component, value, "print"}, truth);
+  };
+  using enum PublishedStanding;
+  struct Row {
+    const char* value;
+    PublishedStanding standing;
+    int printed;
+    double digits;
+  };
+  for (const Row& r :
+       {Row{"1.234567890123457", to_the_last, 16, 16}, Row{"0.1234567890123457e1", to_the_last, 16, 16},
+        Row{"0.1234567890123458e+1", in_part, 16, 15}, Row{"1.234567890", to_the_last, 10, 10},
+        Row{"1.234567890123456789012345678901", to_the_last, 31, 25}, Row{"1.23456789", to_the_last, 9, 9},
+        Row{"1.2345000000000000", wrong, 17, 4.26}, Row{"1.5", wrong, 2, 0.67},
+        Row{"-1.234567890123457", wrong, 16, 0}, Row{"1.234567890123457e-7", wrong, 16, 0}}) {
+    const PublishedAgreement a = agreement(r.value);
+    EXPECT_EQ(a.standing, r.standing) << r.value << " " << a.digits;
+    EXPECT_EQ(a.printed, r.printed) << r.value;
+    EXPECT_NEAR(a.digits, r.digits, 0.3) << r.value;
+  }
+  // A zero in print beside a component that underflows, and one in the place of the solution.
+  EXPECT_EQ(agreement("0", 1).standing, to_the_last);
+  EXPECT_EQ(agreement("0", 0).standing, wrong);
+  EXPECT_EQ(agreement("0.1152903278711829e-290", 1).standing, wrong);
+  EXPECT_THROW((void)agreement("1", 2), std::out_of_range);
+}
+
+// A digit that was lost on the way from print shows: of these two nothing is wrong.
+TEST(PublishedValues, OfHiresAndChemakzoHoldToTheirLastDigit) {
+  for (const auto& [problem, end] : {std::pair{"hires", "321.8122"}, std::pair{"chemakzo", "180"}}) {
+    const auto truth = true_solution(problem, end, 20, {});
+    std::size_t components = 0;
+    for (const PublishedValue& p : published_values()) {
+      if (p.problem != problem) continue;
+      EXPECT_EQ(p.component, components++);
+      EXPECT_EQ(agreement_with_truth(p, truth).standing, PublishedStanding::to_the_last)
+          << problem << " " << p.component + 1;
+    }
+    EXPECT_EQ(components, truth.size()) << problem;
+  }
 }
 
 TEST(StepPlan, LeadsEveryTypeToTheSameEnd) {
@@ -93,7 +139,7 @@ TEST(TrajectoryCases, ComeToWhatIsKnownInFloatAndDouble) {
     for (const char* token : {"float", "double"}) {
       const auto row = c.run(token, {});
       ASSERT_TRUE(row) << c.key();
-      const auto standing = standing_of(c, token, row->verdict);
+      const auto standing = standing_of(c, token, *row);
       EXPECT_TRUE(standing.as_known) << c.key() << " " << token << ": " << to_string(row->verdict)
                                      << ", known is " << standing.expected << ", E " << row->error.value_or(0)
                                      << " kappa " << row->condition.value_or(0);

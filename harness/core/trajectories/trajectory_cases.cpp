@@ -104,7 +104,24 @@ class RowRun {
     out.verdict = StressVerdict::diverged;
     out.why = energy ? "the conserved quantity has changed by more than ten times itself"
                      : "a component has grown beyond 1e8";
+    out.first_wrong = "step " + std::to_string(own.steps) + " or before";
     return true;
+  }
+
+  [[nodiscard]] std::string worst_component(const std::vector<std::string>& own,
+                                            const std::vector<std::string>& exact,
+                                            const std::vector<double>& sizes) const {
+    std::size_t worst = 0;
+    double largest = -1;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      // Of a norm the share of each component.
+      const double off = row_.stiff ? distance({own[i]}, {exact[i]}, {sizes[i]})
+                                    : relative_distance({own[i]}, {exact[i]}) * sizes[i];
+      if (off <= largest) continue;
+      largest = off;
+      worst = i;
+    }
+    return std::to_string(worst + 1);
   }
 
   [[nodiscard]] double distance(const std::vector<std::string>& a, const std::vector<std::string>& b,
@@ -125,6 +142,10 @@ class RowRun {
                           std::to_string(own.steps * (k + 1) / checkpoints);
       }
     }
+    if (out.verdict == StressVerdict::unstable)
+      out.why = "component " +
+                worst_component(own.checkpoints.back(), reference.checkpoints.back(), reference.sizes) +
+                " is farthest off at the end, where rounding is felt more than the problem makes it";
     out.stepping_error = truth.stepping_error;
     const double whole = std::max(*out.error, truth.stepping_error);
     out.correct_digits = whole > 0 ? std::max(0.0, -std::log10(whole)) : -std::log10(roundoff);

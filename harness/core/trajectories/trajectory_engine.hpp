@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ struct TrajectoryOptions {
   double perturbation = 0;
   std::uint64_t seed = 0;
   int checkpoints = 0;  // states kept on the way, behind equal shares of the steps
+  // States kept instead behind these numbers of steps, which rise.
+  std::span<const std::uint64_t> behind = {};
 };
 
 // Where a run of an integrator came to.

@@ -2,6 +2,7 @@
 // of each type.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -159,6 +160,7 @@ class TrajectoryEngineOf final : public TrajectoryEngine {
 
   static void keep_checkpoint(std::span<const Real> state, std::uint64_t steps,
                               const TrajectoryOptions& options, Trajectory& out) {
+    if (std::ranges::binary_search(options.behind, out.steps)) out.checkpoints.push_back(texts(state));
     const auto wanted = static_cast<std::uint64_t>(options.checkpoints);
     if (wanted == 0) return;
     // Behind step k of n where floor(k wanted / n) goes up.

@@ -135,31 +135,4 @@ std::vector<TrueValue> true_solution(std::string_view problem, std::string_view 
               : settled<MpfrReal<62>>(problem, end, digits, stop);
 }
 
-const std::vector<PublishedValue>& published_values() {
-  static const std::string test_set = "F. Mazzia, C. Magherini, Test Set for IVP Solvers (2008)";
-  static const std::string stiff_book =
-      "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996)";
-  static const std::string orbit_book =
-      "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.0";
-  static const std::vector<PublishedValue> list{
-      {"robertson", "1e11", 0, "0.2083340149701255e-7", test_set},
-      {"robertson", "1e11", 1, "0.8333360770334713e-13", test_set},
-      {"robertson", "1e11", 2, "0.9999999791665050", test_set},
-      {"van_der_pol", "2", 0, "1.706167732170483", test_set},
-      {"van_der_pol", "2", 1, "-0.8928097010247975", test_set},
-      {"oregonator", "360", 0, "1.000814870318523", stiff_book},
-      {"oregonator", "360", 1, "1228.178521549917", stiff_book},
-      {"oregonator", "360", 2, "132.0554942846706", stiff_book},
-      {"e5", "1e13", 0, "0.1152903278711829e-290", test_set},
-      {"e5", "1e13", 1, "8.867655517642120e-23", test_set},
-      {"e5", "1e13", 2, "8.854814626268838e-23", test_set},
-      {"e5", "1e13", 3, "0", test_set},
-      {"arenstorf", "17.0652165601579625588917206249", 0, "0.994", orbit_book},
-      {"arenstorf", "17.0652165601579625588917206249", 1, "0", orbit_book},
-      {"arenstorf", "17.0652165601579625588917206249", 2, "0", orbit_book},
-      {"arenstorf", "17.0652165601579625588917206249", 3, "-2.00158510637908252240537862224", orbit_book},
-  };
-  return list;
-}
-
 }  // namespace ulpgate

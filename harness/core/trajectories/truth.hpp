@@ -24,14 +24,4 @@ inline constexpr int most_truth_digits = 60;
 [[nodiscard]] std::vector<TrueValue> true_solution(std::string_view problem, std::string_view end, int digits,
                                                    const ode::StopFlag& stop);
 
-// An end value that was published, as text, and how far it is from the truth.
-struct PublishedValue {
-  std::string problem;
-  std::string end;
-  std::size_t component;  // from 0
-  std::string value;
-  std::string source;
-};
-[[nodiscard]] const std::vector<PublishedValue>& published_values();
-
 }  // namespace ulpgate

@@ -19,7 +19,7 @@ std::vector<std::size_t> pareto_front(const std::vector<WorkPoint>& points) {
   std::vector<std::size_t> front;
   double least = std::numeric_limits<double>::infinity();
   for (const auto i : order) {
-    if (!(points[i].error < least)) continue;
+    if (!(points[i].error < least * (1 - least_gain))) continue;
     least = points[i].error;
     front.push_back(i);
   }

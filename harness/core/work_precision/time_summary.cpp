@@ -2,11 +2,7 @@
 #include "harness/core/work_precision/time_summary.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
-
-#include "harness/core/arguments/random_words.hpp"
 
 namespace ulpgate {
 
@@ -32,19 +28,6 @@ double noise_floor(std::vector<double> baseline_s) {
   if (baseline_s.size() < 2) return 0;
   const TimeSummary times = summarize_times(std::move(baseline_s));
   return times.median_s / times.minimum_s - 1;
-}
-
-std::vector<std::size_t> interleaved_order(std::size_t count, std::uint64_t round) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const RandomStream stream(1, "work_precision", "interleaving");
-  // Fisher and Yates; the bias of a modulus of 64 bits shows to nobody.
-  for (std::size_t i = count; i > 1; --i) {
-    std::array<std::uint64_t, 1> word{};
-    stream.fill(round, i, word);
-    std::swap(order[i - 1], order[word[0] % i]);
-  }
-  return order;
 }
 
 }  // namespace ulpgate

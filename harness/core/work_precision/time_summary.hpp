@@ -1,8 +1,7 @@
-// What repeated times of one setting come to, and the order in which settings are timed.
+// What repeated times of one setting come to.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace ulpgate {
@@ -19,10 +18,5 @@ struct TimeSummary {
 // How far a time of the same work may be off on this machine: median over minimum of a baseline that was
 // repeated between all others, less one.  0 of fewer than two.
 [[nodiscard]] double noise_floor(std::vector<double> baseline_s);
-
-// 0 ... count-1 shuffled, the same for the same round: subjects timed in one fixed order would share what
-// the machine does in between (J. H. Curtsinger, E. D. Berger: Stabilizer, ASPLOS 2013; random interleaving
-// of benchmark libraries).
-[[nodiscard]] std::vector<std::size_t> interleaved_order(std::size_t count, std::uint64_t round);
 
 }  // namespace ulpgate

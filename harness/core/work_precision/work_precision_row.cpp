@@ -55,7 +55,7 @@ std::optional<WorkFailure> work_failure_of(std::string_view text) {
 std::string WorkSetting::curve() const {
   std::string text = std::string(to_string(subject)) + "/" + name + "/" + type;
   if (!integrator.empty()) text += "/" + integrator + "/" + end;
-  return text;
+  return planned() ? text + "/planned" : text;
 }
 
 std::string WorkSetting::key() const {
@@ -73,6 +73,7 @@ std::string WorkOutcome::to_text() const {
   for (const auto& x : {final_error, largest_error, largest_error_ulp, energy_error, reference_error, t_s,
                         growth_rate, correct_digits})
     text += " " + number_text(x);
+  text += " " + (instants ? std::to_string(*instants) : std::string(absent));
   text += t_s_to_the_end ? " 1" : " 0";
   // Whatever the error's text holds, a piece is one line.
   std::string words = why;
@@ -82,7 +83,7 @@ std::string WorkOutcome::to_text() const {
 }
 
 WorkOutcome WorkOutcome::from_text(std::string_view text) {
-  constexpr std::size_t count = 12;
+  constexpr std::size_t count = 13;
   std::array<std::string_view, count> words;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t end = text.find(' ');
@@ -103,8 +104,9 @@ WorkOutcome WorkOutcome::from_text(std::string_view text) {
   o.t_s = number_of(words[8]);
   o.growth_rate = number_of(words[9]);
   o.correct_digits = number_of(words[10]);
-  if (words[11] != "0" && words[11] != "1") throw std::invalid_argument("no outcome: it is cut");
-  o.t_s_to_the_end = words[11] == "1";
+  if (words[11] != absent) o.instants = whole_of(words[11]);
+  if (words[12] != "0" && words[12] != "1") throw std::invalid_argument("no outcome: it is cut");
+  o.t_s_to_the_end = words[12] == "1";
   o.why = text;
   return o;
 }

@@ -1,4 +1,4 @@
-// Tests of rows, fronts, times, measurements of settings and the search for the cheapest one.
+// Tests of rows, fronts, times and measurements of settings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "harness/core/subject/registry.hpp"
-#include "harness/core/work_precision/advice_search.hpp"
+#include "harness/core/trend/interleaved_order.hpp"
 #include "harness/core/work_precision/pareto_front.hpp"
 #include "harness/core/work_precision/subject_setting.hpp"
 #include "harness/core/work_precision/time_summary.hpp"
@@ -33,14 +33,16 @@ TEST(WorkPrecisionRow, AnOutcomeSurvivesItsText) {
   o.final_error = 1.0 / 3;
   o.largest_error = 0;
   o.energy_error = 0x1p-1060;
+  o.instants = 16;
   o.t_s = 2.45;
   o.t_s_to_the_end = true;
   o.growth_rate = -1.5;
   EXPECT_EQ(WorkOutcome::from_text(o.to_text()), o);
   o.why = "two\nlines";
   EXPECT_EQ(WorkOutcome::from_text(o.to_text()).why, "two lines");
-  for (const auto* bad : {"", "-", "lost 1 2 - - - - - - - - 0", "- 1 2 - - - - - - -",
-                          "- -1 2 - - - - - - - - 0", "- 1 2 x - - - - - - - 0"})
+  for (const auto* bad :
+       {"", "-", "lost 1 2 - - - - - - - - - 0", "- 1 2 - - - - - - - -", "- -1 2 - - - - - - - - - 0",
+        "- 1 2 x - - - - - - - - 0", "- 1 2 - - - - - - - - x 0"})
     EXPECT_THROW((void)WorkOutcome::from_text(bad), std::invalid_argument) << bad;
 }
 
@@ -54,6 +56,11 @@ TEST(WorkPrecisionRow, KeysTellSettingsApart) {
     }
   }
   EXPECT_EQ(keys.size(), 8U);
+  const WorkSetting equal{WorkSubject::trajectory, "kepler", "double", "rk4", "1", "", 64, 0};
+  const WorkSetting planned{WorkSubject::trajectory, "kepler", "double", "rk4", "1", "plan:1e-6", 64, 0};
+  EXPECT_TRUE(planned.planned() && !equal.planned());
+  EXPECT_NE(planned.curve(), equal.curve()) << "two curves of one integrator";
+  EXPECT_NE(planned.key(), equal.key());
   EXPECT_EQ((WorkSetting{WorkSubject::function, "sin", "double", "", "", "", 0, 0}.key()),
             "function/sin/double");
 }
@@ -64,6 +71,9 @@ TEST(ParetoFront, KeepsWhatNoOtherBeats) {
   EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{0, 1, 3}));
   EXPECT_TRUE(pareto_front({}).empty());
   EXPECT_TRUE(pareto_front({{inf, 1}, {std::nan(""), 1}}).empty());
+  // A gain of a hundredth is none, one of three is; an exact result always gains.
+  EXPECT_EQ(pareto_front({{1e-3, 1}, {0.99e-3, 2}, {0.97e-3, 3}, {0, 4}, {0, 5}}),
+            (std::vector<std::size_t>{0, 2, 3}));
 }
 
 TEST(TimeSummary, OfTimes) {
@@ -119,7 +129,7 @@ class FakeEngine final : public TrajectoryEngine {
   [[nodiscard]] bool applies(std::string_view, std::string_view) const override { return true; }
   using TrajectoryEngine::equal_steps;
   [[nodiscard]] Trajectory equal_steps(std::string_view, std::string_view, std::string_view,
-                                       std::uint64_t steps, const TrajectoryOptions&,
+                                       std::uint64_t steps, const TrajectoryOptions& options,
                                        const ode::StopFlag& stop) const override {
     stop.check();
     ++runs;
@@ -132,7 +142,11 @@ class FakeEngine final : public TrajectoryEngine {
       t.first_not_finite = 1;
     }
     double x = 1;
-    for (std::uint64_t i = 0; i < steps; ++i) x -= x / static_cast<double>(steps);
+    for (std::uint64_t i = 0; i < steps; ++i) {
+      x -= x / static_cast<double>(steps);
+      const auto wanted = static_cast<std::uint64_t>(options.checkpoints);
+      if (wanted > 0 && (i + 1) % (steps / wanted) == 0) t.checkpoints.push_back({to_hexfloat(x)});
+    }
     t.state = {to_hexfloat(x)};
     t.largest_invariant_error = 0.5;
     return t;
@@ -145,9 +159,15 @@ class FakeEngine final : public TrajectoryEngine {
   mutable int runs = 0;
 };
 
+// exp(-t) at quarters of the end.
 SharedTruth truth_of_decay() {
-  return std::make_shared<Shared<TrajectoryTruth>>([](const ode::StopFlag&) {
-    return TrajectoryTruth{{"0.36787944117144232159552377016146"}, 1e-30};
+  return std::make_shared<Shared<TruePath>>([](const ode::StopFlag&) {
+    return TruePath{{{"0.77880078307140486824517026697832"},
+                     {"0.60653065971263342360379953499118"},
+                     {"0.47236655274101470713804655094327"},
+                     {"0.36787944117144232159552377016146"}},
+                    ErrorNorm::normwise,
+                    1e-30};
   });
 }
 
@@ -164,6 +184,9 @@ TEST(TrajectorySetting, MeasuresRefusesAndBreaks) {
   ASSERT_TRUE(good.complete());
   // (1 - 1/n)^n = (1 - 1/(2n) - ...)/e.
   EXPECT_NEAR(*good.outcome().final_error, 1.0 / 128, 1e-4);
+  // At t the error is t/(2n): the end has the largest.
+  EXPECT_EQ(good.outcome().largest_error, good.outcome().final_error);
+  EXPECT_EQ(good.outcome().instants, 4U);
   EXPECT_EQ(good.outcome().energy_error, 0.5);
   EXPECT_NEAR(*good.outcome().correct_digits, 2.1, 0.1);
   TrajectorySetting again(decay(64), engine, truth_of_decay(), 1e6);
@@ -185,10 +208,40 @@ TEST(TrajectorySetting, MeasuresRefusesAndBreaks) {
   EXPECT_EQ(outcome_of(2, 1e6).steps, 1U);
   EXPECT_EQ(outcome_of(2000, 1e6).failure, WorkFailure::refused);
   EXPECT_EQ(outcome_of(2000, 1e6).why, "no");
+  EXPECT_EQ(outcome_of(66, 1e6).instants, 2U) << "steps end at the half and at the end alone";
+  EXPECT_EQ(outcome_of(65, 1e6).instants, 1U);
   const WorkOutcome dear = outcome_of(64, 10);
   EXPECT_EQ(dear.failure, WorkFailure::refused);
   EXPECT_NE(dear.why.find("budget"), std::string::npos);
   EXPECT_FALSE(dear.error().has_value());
+}
+
+WorkOutcome outcome_of(const WorkSetting& s, const ProblemTruths& truths) {
+  TrajectorySetting m(s, *find_trajectory_engine(s.type), truths.of(s), default_evaluation_budget);
+  static_cast<void>(m.proceed(1));
+  return m.outcome();
+}
+
+// Equal steps of a stiff problem waste theirs; explicit methods end for good with either.
+TEST(TrajectorySetting, PlannedStepsFollowAStiffProblem) {
+  const ProblemTruths truths = shared_truths("robertson", "40", 15);
+  const WorkSetting planned = planned_setting("robertson", "double", "radau3", "40", 1e-6);
+  EXPECT_EQ(planned.dt, "plan:1e-6");
+  const WorkOutcome graded = outcome_of(planned, truths);
+  EXPECT_EQ(graded.steps, planned.steps);
+  EXPECT_EQ(graded.instants, 16U);
+  EXPECT_LT(*graded.final_error, 1e-8);
+  EXPECT_GE(*graded.largest_error, *graded.final_error);
+  EXPECT_LT(*graded.largest_error, 1e-5);
+  const WorkOutcome equal =
+      outcome_of(equal_setting("robertson", "double", "radau3", "40", planned.steps / 16 * 16), truths);
+  EXPECT_EQ(equal.instants, 16U);
+  // Its times begin where the fast phase is over.
+  EXPECT_GT(*equal.final_error, 0);
+  const WorkOutcome lost = outcome_of(planned_setting("robertson", "double", "rk4", "40", 1e-6), truths);
+  EXPECT_EQ(lost.failure, WorkFailure::diverged);
+  EXPECT_FALSE(lost.largest_error || lost.instants);
+  EXPECT_THROW((void)planned_setting("robertson", "double", "rk4", "40", 1e-20), std::invalid_argument);
 }
 
 TEST(SubjectSetting, FunctionsAndKernelsHaveErrorsThatAreRelative) {
@@ -206,125 +259,6 @@ TEST(SubjectSetting, FunctionsAndKernelsHaveErrorsThatAreRelative) {
   (void)kernel.proceed(1);
   EXPECT_GT(*kernel.outcome().largest_error, 0);
   EXPECT_LT(*kernel.outcome().largest_error, 1e-8);
-}
-
-// A curve whose error is C 2^(-p k) + floor, and whose time doubles with every level.
-struct MadeCurve {
-  double c, p, floor, first_s;
-  int fails_below = 0;
-  double guess_s = 0;
-};
-
-struct Made {
-  std::vector<MadeCurve> curves;
-  std::vector<int> looked = std::vector<int>(curves.size(), 0);
-  double spent_s = 0;
-  double search_s = inf;
-
-  AdviceSearch search(double error, double most_s, int levels = 30) {
-    std::vector<AdviceCurve> list;
-    for (const auto& c : curves) list.push_back({levels, c.guess_s});
-    return search_advice(list, {error, most_s, search_s}, [&](std::size_t i, int level, double run_s) {
-      const MadeCurve& m = curves[i];
-      ++looked[i];
-      AdvicePoint point{i, level, {}, m.first_s * std::ldexp(1.0, level)};
-      if (point.seconds > 2 * run_s) {
-        point.cut = true;
-        point.seconds = run_s;
-      }
-      spent_s += point.seconds;
-      if (point.cut) return point;
-      if (level < m.fails_below) {
-        point.outcome.failure = WorkFailure::diverged;
-      } else {
-        point.outcome.final_error = m.c * std::pow(2, -m.p * level) + m.floor;
-      }
-      return point;
-    });
-  }
-};
-
-TEST(AdviceSearch, FindsTheCheapestOfAll) {
-  // Of second order and cheap, of eighth and dear, of eighth with a floor above what is wanted.
-  Made made{{{1, 2, 0, 1}, {1, 8, 0, 16}, {1, 8, 1e-3, 1}}};
-  const AdviceSearch search = made.search(1e-6, 1e9);
-  ASSERT_TRUE(search.best.has_value());
-  // 2^-(8 k) <= 1e-6 from k = 3 at 128 s; 2^-(2 k) from k = 10 at 1024 s.
-  EXPECT_EQ(search.points[*search.best].curve, 1U);
-  EXPECT_EQ(search.points[*search.best].seconds, 128);
-  EXPECT_EQ(search.ends, (std::vector<CurveEnd>{CurveEnd::too_dear, CurveEnd::met, CurveEnd::floor}));
-  EXPECT_LT(made.spent_s, 6 * 128) << "no curve costs more than twice the best";
-}
-
-TEST(AdviceSearch, TrustsNoOrderThatItDidNotMeasure) {
-  // Promises everything at its first steps and keeps nothing: an order that is lost at a kink.
-  Made made{{{1, 8, 1e-5, 1}, {1, 1, 0, 1}}};
-  const AdviceSearch search = made.search(1e-6, 1e9);
-  ASSERT_TRUE(search.best.has_value());
-  EXPECT_EQ(search.points[*search.best].curve, 1U);
-  EXPECT_LE(search.points[*search.best].certain_error(), 1e-6);
-  EXPECT_EQ(search.ends[0], CurveEnd::floor);
-}
-
-TEST(AdviceSearch, SaysThatNothingMeetsTheError) {
-  Made made{{{1, 4, 1e-9, 1}, {1, 2, 0, 1}}};
-  const AdviceSearch search = made.search(1e-12, 300);
-  EXPECT_FALSE(search.best.has_value());
-  ASSERT_TRUE(search.nearest.has_value());
-  EXPECT_NEAR(search.points[*search.nearest].certain_error(), 1e-9, 5e-10);
-  EXPECT_EQ(search.ends, (std::vector<CurveEnd>{CurveEnd::too_slow, CurveEnd::too_slow}));
-  Made failing{{{1, 4, 0, 1, 99}}};
-  const AdviceSearch none = failing.search(1e-3, 1e9, 5);
-  EXPECT_FALSE(none.best || none.nearest);
-  EXPECT_EQ(none.ends.front(), CurveEnd::finest);
-  EXPECT_TRUE(search_advice({}, {1, 1, 1}, nullptr).points.empty());
-}
-
-TEST(AdviceSearch, FailuresAtCoarseStepsEndNoCurve) {
-  Made made{{{1, 2, 0, 1, 5}}};
-  const AdviceSearch search = made.search(1e-6, 1e9);
-  ASSERT_TRUE(search.best.has_value());
-  EXPECT_EQ(search.points[*search.best].level, 10);
-}
-
-TEST(AdviceSearch, LooksNoLongerThanItMay) {
-  Made made{{{1, 2, 0, 1}}};
-  made.search_s = 100;
-  const AdviceSearch search = made.search(1e-12, 1e9);
-  EXPECT_FALSE(search.best.has_value());
-  EXPECT_EQ(search.ends.front(), CurveEnd::stopped);
-  EXPECT_LE(made.spent_s, 100);
-}
-
-TEST(AdviceSearch, CutsWhatTakesLongerThanTheBest) {
-  // The guess of the second is far too low: its first level takes a thousand times as long as the best.
-  Made made{{{1, 8, 0, 1}, {1e-9, 8, 0, 1e4, 0, 8}}};
-  const AdviceSearch search = made.search(1e-6, 1e9);
-  ASSERT_TRUE(search.best.has_value());
-  EXPECT_EQ(search.points[*search.best].curve, 0U);
-  EXPECT_EQ(made.spent_s, 1 + 2 + 4 + 8 + 8);
-  EXPECT_EQ(search.ends[1], CurveEnd::too_dear);
-}
-
-TEST(AdviceSearch, DoesNotBeginWhatIsFarDearer) {
-  Made made{{{1, 8, 0, 1}, {1, 8, 0, 1000, 0, 1000}, {1, 8, 0, 10, 0, 10}}};
-  const AdviceSearch search = made.search(1e-6, 1e9);
-  ASSERT_TRUE(search.best.has_value());
-  EXPECT_EQ(search.ends[1], CurveEnd::untouched);
-  EXPECT_EQ(made.looked[1], 0);
-  EXPECT_GT(made.looked[2], 0) << "a guess may be wrong";
-}
-
-TEST(AdviceSearch, AnUncertainTruthCounts) {
-  AdvicePoint point;
-  point.outcome.final_error = 1e-9;
-  EXPECT_EQ(point.certain_error(), 1e-9);
-  point.outcome.reference_error = 1e-6;
-  EXPECT_GT(point.certain_error(), 1e-6);
-  point.outcome.largest_error = 1e-3;
-  EXPECT_GT(point.certain_error(), 1e-3);
-  point.outcome.failure = WorkFailure::refused;
-  EXPECT_EQ(point.certain_error(), inf);
 }
 
 }  // namespace

@@ -58,6 +58,12 @@ struct NotFinite {
   }
 };
 
+// What a rule for the critical step says of a scene.
+struct CriticalStep {
+  double step_s = 0;    // 0 where nothing limits the step
+  std::string refusal;  // why the rule has nothing to say; empty where it has
+};
+
 class DemEngine {
  public:
   DemEngine() = default;
@@ -110,9 +116,10 @@ class DemEngine {
   // another number than the account's; those of a composition method are of the same instant.
   [[nodiscard]] virtual double kinetic_energy() const = 0;
   virtual void kinetic_energy_exact(mpfr_ptr out) const = 0;
-  // Critical steps in seconds by name: "p_wave", "rayleigh" of spheres and materials, "stiffness" of the
-  // contacts.
-  [[nodiscard]] virtual double critical_step(std::string_view name) const = 0;
+  // Critical steps by name: "stiffness" of the contacts; "p_wave", "rayleigh" of the masses, radii and
+  // elastic materials of the spheres, which say nothing where springs come from something else.  Throws
+  // std::invalid_argument where no rule has this name.
+  [[nodiscard]] virtual CriticalStep critical_step(std::string_view name) const = 0;
 
   // The first of body numbers whose velocity, position, rotation or kinetic energy is not finite in the type
   // of the run, then the account; nothing of a state that is.  A state that has left the numbers never comes

@@ -16,7 +16,9 @@ class TypedEngine final : public DemEngine {
   TypedEngine(std::string type_name, const scenes::Scene& scene, const EngineOptions& options)
       : type_name_(std::move(type_name)),
         simulation_(scene, {options.all_parts, options.threads, options.allow_large, options.progress,
-                            options.collisions}) {}
+                            options.collisions}) {
+    for (const scenes::Material& m : scene.materials) material_names_.push_back(m.name);
+  }
 
   [[nodiscard]] std::string type_name() const override { return type_name_; }
   void step(std::uint64_t count) override { simulation_.step(count); }
@@ -95,19 +97,14 @@ class TypedEngine final : public DemEngine {
   [[nodiscard]] double kinetic_energy() const override { return static_cast<double>(kinetic_sum()); }
   void kinetic_energy_exact(mpfr_ptr out) const override { to_mpfr(out, kinetic_sum()); }
 
-  [[nodiscard]] double critical_step(std::string_view name) const override {
-    if (name == "stiffness") return static_cast<double>(stiffness_limit(s()));
-    const Bodies<Real>& b = s().bodies;
-    Real least{0};
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      if (b.shape[i] != Shape::sphere) continue;
-      const auto& m = s().materials[static_cast<std::size_t>(b.material[i])];
-      const Real step = name == "p_wave"
-                            ? p_wave_step(b.radius[i], m.density, m.elastic.young)
-                            : rayleigh_step(b.radius[i], m.density, m.elastic.young, m.elastic.poisson);
-      if (least == 0 || step < least) least = step;
-    }
-    return static_cast<double>(least);
+  [[nodiscard]] CriticalStep critical_step(std::string_view name) const override {
+    if (name == "stiffness") return {static_cast<double>(stiffness_limit(s())), ""};
+    if (name != "p_wave" && name != "rayleigh")
+      throw std::invalid_argument("no rule '" + std::string(name) + "' for the critical step");
+    if (std::string refusal = wave_refusal(s(), material_names_); !refusal.empty())
+      return {0, "the rule '" + std::string(name) + "': " + refusal};
+    const Wave wave = name == "p_wave" ? Wave::pressure : Wave::rayleigh;
+    return {static_cast<double>(wave_limit(s(), wave)), ""};
   }
 
   [[nodiscard]] std::optional<NotFinite> not_finite() const override {
@@ -189,6 +186,7 @@ class TypedEngine final : public DemEngine {
   }
 
   std::string type_name_;
+  std::vector<std::string> material_names_;
   Simulation<Real> simulation_;
 };
 

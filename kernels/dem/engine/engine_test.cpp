@@ -13,6 +13,7 @@ namespace ulpgate::dem {
 namespace {
 
 using scenes::Scene;
+using testing::busy;
 using testing::load;
 using testing::scene_names;
 
@@ -35,20 +36,6 @@ std::string trajectory(const DemEngine& e) {
   for (const BodyPair& p : e.contacts())
     text += std::to_string(p.first) + '-' + std::to_string(p.second) + ' ';
   return text;
-}
-
-// How to bring a scene quickly to where bodies touch.
-Scene busy(const std::string& name) {
-  Scene scene = load(name);
-  if (name == "deposition") {
-    // Fewer and larger spheres, thrown down, so that they lie in each other's way within a few hundred steps.
-    EXPECT_FALSE(apply_override(scene, "radius=0.04"));
-    EXPECT_FALSE(apply_override(scene, "gravity.y=-2000"));
-  }
-  if (name == "packing") {
-    EXPECT_FALSE(apply_override(scene, "speed=20"));
-  }
-  return scene;
 }
 
 std::uint64_t steps_of(const std::string& name) {
@@ -177,51 +164,11 @@ TEST(Engine, WidenedStateIsExact) {
   EXPECT_LT(difference, 1e-15);
 }
 
-// Laws, shapes and bodies that no scene file has together.
-const char* const everything = R"(name = "everything"
-[[material]]
-name = "m"
-density = 2500
-young = 1e7
-poisson = 0.3
-friction_angle = 20
-[[generator]]
-kind = "grid"
-radius = 0.01
-radius_spread = 0.2
-counts = [3, 3, 3]
-spacing = [0.023, 0.023, 0.023]
-corner = [-0.02, 0.02, -0.02]
-jitter = 0.001
-[[sphere]]
-position = [0.001, 0.1, 0.002]
-radius = 0.012
-inertia = [1e-6, 2e-6, 3e-6]
-angular_velocity = [1, 20, 3]
-[[box]]
-centre = [0, -0.02, 0]
-half_size = [0.03, 0.02, 0.03]
-axis = [0, 0, 1]
-angle = 10
-[[facet]]
-vertices = [[-1, -0.05, -1], [1, -0.05, -1], [0, -0.05, 1]]
-[contacts]
-law = "LAW"
-[run]
-dt = 1e-5
-until = 1
-gravity = [0, -9.81, 0]
-record = ["energy"]
-)";
-
 TEST(Engine, OtherLawsAndShapesKeepBitsToo) {
   for (const std::string law : {"hertz_mindlin", "frictional", "viscoelastic"}) {
-    std::string text = everything;
-    text.replace(text.find("LAW"), 3, law);
-    const auto read = scenes::read_scene(text, "everything");
-    ASSERT_TRUE(read.scene) << read.errors.front().text();
-    auto lean = engine(*read.scene);
-    auto full = engine(*read.scene, {true, 2});
+    const Scene scene = testing::everything(law);
+    auto lean = engine(scene);
+    auto full = engine(scene, {true, 2});
     lean->step(1);
     const double start = lean->energy("sum");
     lean->step(4999);
@@ -230,7 +177,7 @@ TEST(Engine, OtherLawsAndShapesKeepBitsToo) {
     full->step(10000);
     EXPECT_EQ(trajectory(*lean), trajectory(*full)) << law;
     EXPECT_GT(lean->energy("friction"), 0) << law << ": bodies met";
-    auto resumed = engine(*read.scene);
+    auto resumed = engine(scene);
     resumed->restore(state, Constants::from_text);
     resumed->step(5000);
     EXPECT_EQ(trajectory(*resumed), trajectory(*lean)) << law;

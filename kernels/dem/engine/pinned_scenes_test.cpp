@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 
 #include "kernels/dem/engine/engine.hpp"
 #include "kernels/dem/testing/scenes.hpp"
@@ -62,28 +61,21 @@ class PinnedScenes : public ::testing::Test {
     for (std::size_t i = 0; i < e.bodies(); ++i) mass += static_cast<double>(i + 1) * e.mass(i);
     hold(name + " mass", mass);
     for (const char* step : {"p_wave", "rayleigh", "stiffness"}) {
-      const double t = e.critical_step(step);
-      if (std::isfinite(t)) hold(name + " " + step, t);
+      const CriticalStep critical = e.critical_step(step);
+      if (critical.refusal.empty()) hold(name + " " + step, critical.step_s);
     }
   }
 
   static std::unique_ptr<DemEngine> made(Scene scene, const std::vector<std::string>& overrides = {}) {
-    for (const std::string& text : overrides) EXPECT_FALSE(apply_override(scene, text)) << text;
+    scene = testing::changed(scene, overrides);
     scene.record = {"energy"};
     return make_engine("double", Level::own, scene, {});
   }
 };
 
-const std::map<std::string, std::vector<std::string>> busy = {
-    // Fewer and larger spheres, thrown down, so that they meet within a few hundred steps.
-    {"deposition", {"radius=0.04", "gravity.y=-2000"}},
-    {"packing", {"speed=20"}},
-};
-
 TEST_F(PinnedScenes, EveryScene) {
   for (const std::string& name : testing::scene_names()) {
-    const auto found = busy.find(name);
-    const auto e = made(load(name), found == busy.end() ? std::vector<std::string>{} : found->second);
+    const auto e = made(testing::busy(name));
     e->step(name == "deposition" ? 400 : 1500);
     hold_state(name, *e);
   }
@@ -136,10 +128,9 @@ damping = 0
 )";
 
 TEST_F(PinnedScenes, ABodyThatIsDrivenMovesAndOneThatIsFixedDoesNot) {
-  auto read = scenes::read_scene(towed, "towed");
-  ASSERT_TRUE(read.errors.empty()) << read.errors.front().text();
-  const auto e = made(*read.scene);
-  const auto all = make_engine("double", Level::own, *read.scene, {true, 1});
+  const Scene scene = testing::read(towed);
+  const auto e = made(scene);
+  const auto all = make_engine("double", Level::own, scene, {true, 1});
   e->step(1000);
   all->step(1000);
   EXPECT_NEAR(e->approximate(BodyQuantity::position, 0, 0), 0.005, 1e-12);

@@ -32,7 +32,8 @@ template <RealType Real>
 [[nodiscard]] Real series_stiffness(const Real& e1, const Real& r1, const Real& e2, const Real& r2) {
   const Real sum = e1 * r1 + e2 * r2;
   if (sum == 0) return Real(0);
-  return 2 * e1 * r1 * e2 * r2 / sum;
+  const Real product = 2 * e1 * r1 * e2 * r2;
+  return is_safe(product) ? Real(product / sum) : Real(2 * in_series(Real(e1 * r1), Real(e2 * r2)));
 }
 
 // Linear frictional contact of spheres of radius r1, r2 (m); a flat body takes the sphere's radius.
@@ -59,7 +60,7 @@ template <RealType Real>
 // Reduced mass (kg); a fixed body counts as its partner's equal.
 template <RealType Real>
 [[nodiscard]] Real reduced_mass(const Real& m1, const Real& m2) {
-  return m1 * m2 / (m1 + m2);
+  return in_series(m1, m2);
 }
 
 template <RealType Real>
@@ -102,7 +103,7 @@ template <RealType Real>
       (1 - m1.poisson * m1.poisson) / m1.young + (1 - m2.poisson * m2.poisson) / m2.young;
   const Real compliance_s =
       2 * (2 - m1.poisson) * (1 + m1.poisson) / m1.young + 2 * (2 - m2.poisson) * (1 + m2.poisson) / m2.young;
-  const Real root = sqrt(r1 * r2 / (r1 + r2));
+  const Real root = sqrt(in_series(r1, r2));
   ContactPhysics<Real> p;
   p.kn = 4 * root / (3 * compliance_n);
   p.ks = 8 * root / compliance_s;

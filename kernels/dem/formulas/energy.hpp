@@ -9,13 +9,13 @@ namespace ulpgate::dem {
 // m/2 |v|^2.
 template <RealType Real>
 [[nodiscard]] Real kinetic_energy(const Real& mass, const Vec3<Real>& v) {
-  return mass * squared_norm(v) / 2;
+  return half_square(mass, v);
 }
 
 // I/2 |w|^2 of a sphere.
 template <RealType Real>
 [[nodiscard]] Real rotational_energy(const Real& inertia, const Vec3<Real>& w) {
-  return inertia * squared_norm(w) / 2;
+  return half_square(inertia, w);
 }
 
 // sum I_k w_k^2/2, both in the body frame.
@@ -32,12 +32,23 @@ template <RealType Real>
   return -(mass * dot(gravity, x));
 }
 
-// |Fn|^2/2kn + |Fs|^2/2ks; a spring of no stiffness stores nothing.
+// |Fs|^2/2ks, ks the stiffness of the shear spring now (N/m); a spring of no stiffness stores nothing.
+template <RealType Real>
+[[nodiscard]] Real shear_energy(const Real& ks, const Vec3<Real>& shear) {
+  return ks == 0 ? Real(0) : Real(squared_norm(shear) / (2 * ks));
+}
+
+// |Fn|^2/2kn + |Fs|^2/2ks.
 template <RealType Real>
 [[nodiscard]] Real elastic_energy(const Real& kn, const Real& ks, const Real& fn, const Vec3<Real>& shear) {
-  Real energy = kn == 0 ? Real(0) : Real(fn * fn / (2 * kn));
-  if (ks != 0) energy += squared_norm(shear) / (2 * ks);
-  return energy;
+  return (kn == 0 ? Real(0) : Real(fn * fn / (2 * kn))) + shear_energy(ks, shear);
+}
+
+// Mindlin's spring at an overlap u has the stiffness ks u^(1/2), of a coefficient ks in N/m^(3/2).
+template <RealType Real>
+[[nodiscard]] Real mindlin_stiffness(const Real& ks, const Real& overlap) {
+  using std::sqrt;
+  return overlap > 0 ? Real(ks * sqrt(overlap)) : Real(0);
 }
 
 // Hertz: integral of kn u^(3/2) is 2/5 kn u^(5/2); the shear part as of a spring at the present stiffness.
@@ -46,10 +57,7 @@ template <RealType Real>
                                         const Vec3<Real>& shear) {
   using std::sqrt;
   if (!(overlap > 0)) return Real(0);
-  const Real root = sqrt(overlap);
-  Real energy = 2 * kn * root * overlap * overlap / 5;
-  if (ks != 0) energy += squared_norm(shear) / (2 * ks * root);
-  return energy;
+  return 2 * kn * sqrt(overlap) * overlap * overlap / 5 + shear_energy(mindlin_stiffness(ks, overlap), shear);
 }
 
 }  // namespace ulpgate::dem

@@ -49,9 +49,9 @@ void drift(Vec3<Real>& x, const Vec3<Real>& v, const Real& dt) {
 // Eng. 56 (2003) 35.
 template <RealType Real>
 [[nodiscard]] Quaternion<Real> turned(const Quaternion<Real>& q, const Vec3<Real>& w, const Real& dt) {
+  if (is_zero(w)) return q;
   const Real speed = norm(w);
-  if (speed == 0) return q;
-  return normalized(from_angle_axis(Real(speed * dt), w / speed) * q);
+  return normalized(from_angle_axis(Real(speed * dt), direction(w, speed)) * q);
 }
 
 template <RealType Real>

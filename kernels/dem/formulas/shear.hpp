@@ -31,6 +31,15 @@ struct Friction {
   Real dissipation{0};  // J
 };
 
+// cut_to_cone() where the square of the force is out of range.
+template <RealType Real>
+[[nodiscard, gnu::noinline]] Friction<Real> cut_by_length(const Vec3<Real>& trial, const Real& limit,
+                                                          const Real& ks) {
+  const Real size = norm(trial);
+  if (!(size > limit)) return {trial, false, Real(0)};
+  return {limit * direction(trial, size), true, (size - limit) / ks * limit};
+}
+
 // Cuts a trial shear force to the cone |Fs| <= limit (N).  `dissipation` = (Fs_trial - Fs).Fs / ks (J): the
 // slip times the force on it.  A limit of 0 leaves exactly no shear.
 template <RealType Real>
@@ -38,6 +47,7 @@ template <RealType Real>
   using std::sqrt;
   if (!(limit > 0)) return {{}, true, Real(0)};
   const Real size2 = squared_norm(trial);
+  if (!squares_hold(trial, size2)) return cut_by_length(trial, limit, ks);
   if (!(size2 > limit * limit)) return {trial, false, Real(0)};
   const Vec3<Real> shear = (limit / sqrt(size2)) * trial;
   return {shear, true, dot(trial - shear, shear) / ks};

@@ -1,4 +1,4 @@
-// Mass and moment of inertia of a solid sphere.
+// Mass, density and moment of inertia of a solid sphere.
 #pragma once
 
 #include <boost/math/constants/constants.hpp>
@@ -12,6 +12,12 @@ template <RealType Real>
 [[nodiscard]] Real sphere_mass(const Real& radius, const Real& density) {
   const Real volume = Real(4) / 3 * boost::math::constants::pi<Real>() * radius * radius * radius;
   return volume * density;
+}
+
+// Of a solid sphere of this mass (kg/m^3); no power of the radius leaves the range of the type on the way.
+template <RealType Real>
+[[nodiscard]] Real sphere_density(const Real& mass, const Real& radius) {
+  return mass / (Real(4) / 3 * boost::math::constants::pi<Real>()) / radius / radius / radius;
 }
 
 // 2/5 m r^2 (kg m^2).

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "reference/types/real_types.hpp"
+#include "kernels/dem/formulas/safe_range.hpp"
 
 namespace ulpgate::dem {
 
@@ -55,9 +55,94 @@ template <RealType Real>
 }
 
 template <RealType Real>
-[[nodiscard]] Real norm(const Vec3<Real>& a) {
+[[nodiscard]] bool is_zero(const Vec3<Real>& a) {
+  return a.x == 0 && a.y == 0 && a.z == 0;
+}
+
+// Whether `squares` is the squared_norm of `a` to the last digits: the roots of it are then those of |a|.
+template <RealType Real>
+[[nodiscard]] bool squares_hold(const Vec3<Real>& a, const Real& squares) {
+  return is_safe(squares) || is_zero(a);
+}
+
+// vector * 2^exponent; the largest component of `vector` is in [1/2, 1).
+template <RealType Real>
+struct ScaledVec3 {
+  Vec3<Real> vector;
+  int exponent = 0;
+
+  [[nodiscard]] Vec3<Real> value() const {
+    using std::ldexp;
+    return {ldexp(vector.x, exponent), ldexp(vector.y, exponent), ldexp(vector.z, exponent)};
+  }
+};
+
+// The exponent is 0 where the largest component is 0 or no number.
+template <RealType Real>
+[[nodiscard]] ScaledVec3<Real> scaled(const Vec3<Real>& a) {
+  using std::abs, std::frexp;
+  Real largest = abs(a.x);
+  for (const Real& c : {a.y, a.z}) {
+    if (abs(c) > largest) largest = abs(c);
+  }
+  if (!(largest > 0) || largest > Real(std::numeric_limits<Real>::max())) return {a, 0};
+  int exponent = 0;
+  (void)frexp(largest, &exponent);
+  return {ScaledVec3<Real>{a, -exponent}.value(), exponent};
+}
+
+// norm(), direction() and half_square() of any vector; out of line, so that those of ordinary ones stay
+// small.
+namespace scaling {
+
+template <RealType Real>
+[[nodiscard, gnu::noinline]] Real norm(const Vec3<Real>& a) {
+  using std::ldexp, std::sqrt;
+  const ScaledVec3<Real> s = scaled(a);
+  return ldexp(Real(sqrt(squared_norm(s.vector))), s.exponent);
+}
+
+template <RealType Real>
+[[nodiscard, gnu::noinline]] Vec3<Real> direction(const Vec3<Real>& a) {
   using std::sqrt;
-  return sqrt(squared_norm(a));
+  const Vec3<Real> s = scaled(a).vector;
+  return s / Real(sqrt(squared_norm(s)));
+}
+
+template <RealType Real>
+[[nodiscard, gnu::noinline]] Real half_square(const Real& factor, const Vec3<Real>& a) {
+  using std::ldexp;
+  const ScaledVec3<Real> s = scaled(a);
+  return ldexp(Real(factor * squared_norm(s.vector) / 2), 2 * s.exponent);
+}
+
+}  // namespace scaling
+
+// |a|, whose squared_norm is `squares`.
+template <RealType Real>
+[[nodiscard]] Real norm(const Vec3<Real>& a, const Real& squares) {
+  using std::sqrt;
+  return squares_hold(a, squares) ? Real(sqrt(squares)) : scaling::norm(a);
+}
+template <RealType Real>
+[[nodiscard]] Real norm(const Vec3<Real>& a) {
+  return norm(a, squared_norm(a));
+}
+
+// a/|a| of a vector of length `length`; of 0 it is NaN.
+template <RealType Real>
+[[nodiscard]] Vec3<Real> direction(const Vec3<Real>& a, const Real& length) {
+  // Below the normal range a length has few digits, and it may be infinite where the vector is not.
+  static const Real least(std::numeric_limits<Real>::min());
+  static const Real largest(std::numeric_limits<Real>::max());
+  return length >= least && length <= largest ? a / length : scaling::direction(a);
+}
+
+// factor |a|^2/2.
+template <RealType Real>
+[[nodiscard]] Real half_square(const Real& factor, const Vec3<Real>& a) {
+  const Real squares = squared_norm(a);
+  return squares_hold(a, squares) ? Real(factor * squares / 2) : scaling::half_square(factor, a);
 }
 
 // w + xi + yj + zk; unit quaternions are orientations.
@@ -113,7 +198,7 @@ template <RealType Real>
   const Real length = norm(u);
   if (length == 0) return {};
   const Real angle = 2 * atan2(length, flip ? Real(-q.w) : q.w);
-  return angle * (u / length);
+  return angle * direction(u, length);
 }
 
 }  // namespace ulpgate::dem

@@ -335,7 +335,8 @@ class CollisionEnergy {
     const Real& dt = s_.dt;
     const Vec3<Real> shear = s_.contacts.shear[p];
     const Vec3<Real> slip = tangential(pass.contact_velocity(i1, i2, flat, g.overlap, g.normal), g.normal);
-    const Vec3<Real> taken = tangential(pass.relative_velocity(i1, i2, flat, g.overlap, g.normal), g.normal);
+    const Vec3<Real> taken =
+        tangential(pass.relative_velocity(i1, i2, flat, g.overlap, g.distance, g.normal), g.normal);
     const Real now = norm(shear);
     const Real before = fresh ? Real(0) : norm(e.shear);
     e.law_bound += dt * (before + now) / 2 * norm(Vec3<Real>(taken - slip));

@@ -17,6 +17,7 @@ class CollisionLedger {
   void look(const SimulationState<Real>& s, const ContactPass<Real>& pass,
             const std::vector<PairForce<Real>>& forces, const std::vector<std::uint8_t>& active) {
     detail::CollisionEnergy<Real> account(s);
+    if (pass.surface.mesh != nullptr) follow_facets(s, pass, forces, active);
     std::vector<std::size_t> gone;
     std::vector<Entry> fresh;
     std::size_t at = 0;
@@ -114,6 +115,26 @@ class CollisionLedger {
   [[nodiscard]] static bool is_bonded(const SimulationState<Real>& s, std::size_t p) {
     if (s.contacts.bond.empty() || s.contacts.bond[p] < 0) return false;
     return s.bonds[static_cast<std::size_t>(s.contacts.bond[p])].broken == 0;
+  }
+
+  // A collision that goes from one facet of a surface to another stays one.
+  void follow_facets(const SimulationState<Real>& s, const ContactPass<Real>& pass,
+                     const std::vector<PairForce<Real>>& forces, const std::vector<std::uint8_t>& active) {
+    std::vector<std::pair<std::size_t, BodyPair>> moved;
+    for (std::size_t p = 0; p < s.contacts.size(); ++p) {
+      if (active[p] == 0 || s.contacts.touched_before[p] != 0) continue;
+      const auto i1 = static_cast<std::size_t>(forces[p].first);
+      const auto from = pass.surface.taken_from(i1, static_cast<std::size_t>(forces[p].second));
+      if (from < 0) continue;
+      const BodyPair old = s.contacts.pair[static_cast<std::size_t>(from)];
+      const auto found = std::lower_bound(open_.begin(), open_.end(), old,
+                                          [](const Entry& e, const BodyPair& pair) { return e.pair < pair; });
+      if (found != open_.end() && found->pair == old)
+        moved.emplace_back(static_cast<std::size_t>(found - open_.begin()), s.contacts.pair[p]);
+    }
+    if (moved.empty()) return;
+    for (const auto& [k, pair] : moved) open_[k].pair = pair;
+    std::sort(open_.begin(), open_.end(), [](const Entry& a, const Entry& b) { return a.pair < b.pair; });
   }
 
   [[nodiscard]] static CollisionRecord begun_record(const Entry& e, const Real& dt) {

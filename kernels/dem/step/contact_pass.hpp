@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels/dem/formulas/energy.hpp"
-#include "kernels/dem/step/state.hpp"
+#include "kernels/dem/step/facet_contacts.hpp"
 
 namespace ulpgate::dem {
 
@@ -41,6 +41,7 @@ struct ContactPass {
   Contacts<Real>& contacts;
   std::vector<BondState<Real>>& bonds;
   const std::vector<CoarseSphere>& coarse;  // of the present positions; only where Real is not native
+  FacetContacts<Real> surface;
 
   // Returns whether the pair exerts a force, which is then in `out`.
   bool evaluate(std::size_t p, PairForce<Real>& out) const {
@@ -58,35 +59,40 @@ struct ContactPass {
     }
     Vec3<Real> normal;
     Real overlap{0};
+    Real distance{0};
     if (flat) {
-      const ContactGeometry<Real> g = flat_geometry(i1, i2);
-      if (!(g.overlap > 0)) return lose(p, i1, i2);
+      const ContactGeometry<Real> g = surface.has(i1) ? surface.geometry(i1, i2) : flat_geometry(i1, i2);
+      if (!(g.overlap > 0)) return surface.hands_on(p, i1, i2) ? false : lose(p, i1, i2, flat);
       normal = g.normal;
       overlap = g.overlap;
     } else {
       if constexpr (!NativeReal<Real>) {
-        if (bond < 0 && coarsely_apart(i1, i2)) return lose(p, i1, i2);
+        if (bond < 0 && coarsely_apart(i1, i2)) return lose(p, i1, i2, flat);
       }
       const Real sum = bodies.radius[i1] + bodies.radius[i2];
       const Vec3<Real> d = bodies.position[i2] - bodies.position[i1];
       const Real length2 = squared_norm(d);
       // Surely apart: spares the root of most candidates.
-      if (bond < 0 && length2 * 64 > sum * sum * 65) return lose(p, i1, i2);
+      if (bond < 0 && length2 * 64 > sum * sum * 65 && in_range(length2)) return lose(p, i1, i2, flat);
       using std::sqrt;
-      const Real length = sqrt(length2);
-      overlap = sum - length;
-      if (bond < 0 && !(overlap >= 0)) return lose(p, i1, i2);
-      normal = d / length;
+      const bool safe = in_range(length2);
+      distance = safe ? Real(sqrt(length2)) : scaling::norm(d);
+      overlap = sum - distance;
+      if (bond < 0 && !(overlap >= 0)) return lose(p, i1, i2, flat);
+      normal = safe ? d / distance : scaling::direction(d);
     }
     out.first = static_cast<std::int32_t>(i1);
     out.second = static_cast<std::int32_t>(i2);
-    if (bond >= 0 && !hold(p, static_cast<std::size_t>(bond), i1, i2, overlap, normal, out)) {
-      if (!(overlap >= 0)) return lose(p, i1, i2);
+    if (bond >= 0 && !hold(p, static_cast<std::size_t>(bond), i1, i2, overlap, distance, normal, out)) {
+      if (!(overlap >= 0)) return lose(p, i1, i2, flat);
       bond = -1;
     }
     if (bond >= 0) return true;
-    if (contacts.touching[p] == 0) begin(p, i1, i2, flat, normal);
-    collide(p, i1, i2, flat, overlap, normal, out);
+    if (contacts.touching[p] == 0) {
+      begin(p, i1, i2, flat, normal);
+      surface.take_over(p, i1, i2);
+    }
+    collide(p, i1, i2, flat, overlap, distance, normal, out);
     return true;
   }
 
@@ -133,7 +139,7 @@ struct ContactPass {
       contacts.cs[p] = physics.cs;
     }
     if (parts.energy) {
-      contacts.elastic[p] = Real(0);
+      contacts.elastic[p] = contacts.shear_elastic[p] = Real(0);
       contacts.viscous_before[p] = {};
     }
   }
@@ -144,9 +150,9 @@ struct ContactPass {
     return sphere_sphere(bodies.position[i1], bodies.radius[i1], bodies.position[i2], bodies.radius[i2]);
   }
 
-  // What extends the shear spring.
+  // What extends the shear spring; `distance` is that of the centres of two spheres.
   [[nodiscard]] Vec3<Real> relative_velocity(std::size_t i1, std::size_t i2, bool flat, const Real& overlap,
-                                             const Vec3<Real>& normal) const {
+                                             const Real& distance, const Vec3<Real>& normal) const {
     const Vec3<Real>& v1 = bodies.velocity[i1];
     const Vec3<Real>& v2 = bodies.velocity[i2];
     if (flat) {
@@ -156,8 +162,8 @@ struct ContactPass {
     }
     const Real& r1 = bodies.radius[i1];
     const Real& r2 = bodies.radius[i2];
-    if (!parts.rotation) return sphere_relative_velocity(overlap, r1, r2, v1, v2);
-    return sphere_relative_velocity(normal, overlap, r1, r2, v1, v2, bodies.angular_velocity[i1],
+    if (!parts.rotation) return sphere_relative_velocity(distance, r1, r2, v1, v2);
+    return sphere_relative_velocity(normal, distance, r1, r2, v1, v2, bodies.angular_velocity[i1],
                                     bodies.angular_velocity[i2]);
   }
 
@@ -175,6 +181,13 @@ struct ContactPass {
   }
 
  private:
+  // Whether distances may be taken by their squares.  The broad phase is in double: no other type comes near
+  // the ends of its own range.
+  [[nodiscard]] static bool in_range([[maybe_unused]] const Real& length2) {
+    if constexpr (NativeReal<Real>) return is_safe(length2);
+    return true;
+  }
+
   // Apart by more than any rounding to double can feign: decides nothing that Real would decide otherwise,
   // but spares it the arithmetic.
   [[nodiscard]] bool coarsely_apart(std::size_t i1, std::size_t i2) const {
@@ -191,21 +204,23 @@ struct ContactPass {
     return flat_contact(bodies, flats, i1, i2);
   }
 
-  bool lose(std::size_t p, std::size_t i1, std::size_t i2) const {
+  bool lose(std::size_t p, std::size_t i1, std::size_t i2, bool flat) const {
     if (contacts.touching[p] != 0) {
       contacts.touching[p] = 0;
-      if (parts.energy) {
-        // What the shear spring still held is lost with the contact.
-        if (parts.shear && contacts.ks[p] != 0) {
-          contacts.friction_loss[p] += squared_norm(contacts.shear[p]) / (2 * contacts.ks[p]);
-        }
-        // And half a step more of the dashpot, as a trapezoid ends.
-        const Vec3<Real> v = bodies.velocity[i2] - bodies.velocity[i1];
-        contacts.viscous_loss[p] -= dt / 2 * dot(contacts.viscous_before[p], v);
-        contacts.elastic[p] = Real(0);
-      }
+      if (parts.energy) account_end(p, i1, i2, flat);
     }
     return false;
+  }
+
+  // What the shear spring still held is lost with the contact, as of one that slides with no force to hold
+  // it; and the forces of the step before act for half a step more, as a trapezoid ends.
+  void account_end(std::size_t p, std::size_t i1, std::size_t i2, bool flat) const {
+    const Vec3<Real> normal = parts.shear ? contacts.normal[p] : Vec3<Real>{};
+    const Vec3<Real> v = contact_velocity(i1, i2, flat, Real(0), normal);
+    if (parts.shear)
+      contacts.friction_loss[p] += contacts.shear_elastic[p] - dt / 2 * dot(contacts.shear[p], v);
+    contacts.viscous_loss[p] -= dt / 2 * dot(contacts.viscous_before[p], v);
+    contacts.elastic[p] = contacts.shear_elastic[p] = Real(0);
   }
 
   [[nodiscard]] ContactPhysics<Real> stored_physics(std::size_t p) const {
@@ -248,7 +263,7 @@ struct ContactPass {
   }
 
   void collide(std::size_t p, std::size_t i1, std::size_t i2, bool flat, const Real& overlap,
-               const Vec3<Real>& normal, PairForce<Real>& out) const {
+               const Real& distance, const Vec3<Real>& normal, PairForce<Real>& out) const {
     const ContactPhysics<Real> physics = stored_physics(p);
     if (!parts.shear) {
       Real fn{0};
@@ -268,7 +283,7 @@ struct ContactPass {
       }
       return;
     }
-    const Vec3<Real> velocity = relative_velocity(i1, i2, flat, overlap, normal);
+    const Vec3<Real> velocity = relative_velocity(i1, i2, flat, overlap, distance, normal);
     const Vec3<Real> shear = carried_shear(p, i1, i2, normal);
     ContactForce<Real> f;
     switch (law) {
@@ -300,12 +315,15 @@ struct ContactPass {
                const Vec3<Real>& shear_before, const ContactForce<Real>& f, const Vec3<Real>& normal,
                const Vec3<Real>& velocity, const Vec3<Real>& true_velocity) const {
     if (law == scenes::ContactLaw::hertz_mindlin) {
-      contacts.elastic[p] = hertz_elastic_energy(physics.kn, physics.ks, overlap, f.shear);
+      contacts.shear_elastic[p] = shear_energy(mindlin_stiffness(physics.ks, overlap), f.shear);
+      contacts.elastic[p] =
+          hertz_elastic_energy<Real>(physics.kn, Real(0), overlap, {}) + contacts.shear_elastic[p];
       if (!first_step) contacts.friction_loss[p] += f.dissipation;
       return;
     }
     const Real spring = physics.kn * overlap;
-    contacts.elastic[p] = elastic_energy(physics.kn, physics.ks, spring, f.shear);
+    contacts.shear_elastic[p] = shear_energy(physics.ks, f.shear);
+    contacts.elastic[p] = elastic_energy<Real>(physics.kn, Real(0), spring, {}) + contacts.shear_elastic[p];
     const Vec3<Real> dashpot = (fn - spring) * normal + f.viscous;
     if (!first_step) {
       if (f.sliding && physics.ks != 0) {
@@ -319,7 +337,7 @@ struct ContactPass {
 
   // A bond; returns false where it breaks now.
   bool hold(std::size_t p, std::size_t k, std::size_t i1, std::size_t i2, const Real& overlap,
-            const Vec3<Real>& normal, PairForce<Real>& out) const {
+            const Real& distance, const Vec3<Real>& normal, PairForce<Real>& out) const {
     BondState<Real>& bond = bonds[k];
     if (contacts.touching[p] == 0) begin(p, i1, i2, false, normal);
     const ContactPhysics<Real> physics = stored_physics(p);
@@ -327,7 +345,7 @@ struct ContactPass {
     Vec3<Real> shear;
     Vec3<Real> velocity;
     if (parts.shear) {
-      velocity = relative_velocity(i1, i2, false, overlap, normal);
+      velocity = relative_velocity(i1, i2, false, overlap, distance, normal);
       shear = carried_shear(p, i1, i2, normal);
       f = cohesive(physics, bond.strength, overlap, bond.rest_overlap, normal, shear, velocity, dt);
     } else {

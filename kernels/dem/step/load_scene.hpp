@@ -50,6 +50,17 @@ void load_bodies(SimulationState<Real>& s, const scenes::Assembly<Real>& a) {
   }
 }
 
+// Facets stand first among the flat bodies, in the order of their numbers.
+template <RealType Real>
+void load_mesh(SimulationState<Real>& s, const MeshTopology& topology) {
+  std::vector<std::int32_t> bodies;
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    if (s.bodies.shape[i] == Shape::facet) bodies.push_back(static_cast<std::int32_t>(i));
+  }
+  s.mesh = FacetMesh<Real>(topology, std::move(bodies));
+  measure_mesh(s);
+}
+
 template <RealType Real>
 void load_bonds(SimulationState<Real>& s, const scenes::Assembly<Real>& a) {
   const auto smaller = [](const Real& x, const Real& y) { return y < x ? y : x; };
@@ -90,7 +101,7 @@ void load_bonds(SimulationState<Real>& s, const scenes::Assembly<Real>& a) {
     const auto i = static_cast<std::size_t>(s.bonds[k].first);
     const auto j = static_cast<std::size_t>(s.bonds[k].second);
     const Vec3<Real> d = s.bodies.position[j] - s.bodies.position[i];
-    pass.begin(k, i, j, false, d / norm(d));
+    pass.begin(k, i, j, false, direction(d, norm(d)));
   }
 }
 
@@ -101,7 +112,8 @@ template <RealType Real>
 [[nodiscard]] SimulationState<Real> load_scene(const scenes::Scene& scene, bool all_parts, bool allow_large) {
   const scenes::Assembly<Real> a = scenes::assemble<Real>(scene, allow_large);
   SimulationState<Real> s;
-  s.parts = derive_parts(scene, a, all_parts);
+  const MeshTopology mesh = mesh_topology(scene);
+  s.parts = derive_parts(scene, a, mesh, all_parts);
   s.law = scene.law;
   s.bonded_only = scene.between == scenes::ContactsBetween::bonded;
   s.materials = a.materials;
@@ -115,6 +127,7 @@ template <RealType Real>
     }
   }
   detail::load_bodies(s, a);
+  if (s.parts.shared_edges && scene.shared_edges == scenes::SharedEdges::once) detail::load_mesh(s, mesh);
   detail::load_bonds(s, a);
   return s;
 }

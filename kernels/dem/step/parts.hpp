@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/dem/mesh/mesh_topology.hpp"
 #include "kernels/scenes/reader/assemble.hpp"
 
 namespace ulpgate::dem {
@@ -17,10 +18,11 @@ struct Parts {
   bool viscosity = true;
   bool gravity = true;
   bool damping = true;
-  bool flats = true;       // facets, boxes, walls
-  bool moments = true;     // twist and bending of bonds
-  bool third_axis = true;  // z
-  bool energy = true;      // energy account
+  bool flats = true;         // facets, boxes, walls
+  bool shared_edges = true;  // facets with corners in common act as one surface
+  bool moments = true;       // twist and bending of bonds
+  bool third_axis = true;    // z
+  bool energy = true;        // energy account
 
   struct LeftOut {
     std::string part;
@@ -34,9 +36,10 @@ struct Parts {
   }
 };
 
-// `all`: everything is switched on, nothing is left out.
+// `mesh`: of the scene.  `all`: everything is switched on, nothing is left out.
 template <RealType Real>
-[[nodiscard]] Parts derive_parts(const scenes::Scene& scene, const scenes::Assembly<Real>& a, bool all) {
+[[nodiscard]] Parts derive_parts(const scenes::Scene& scene, const scenes::Assembly<Real>& a,
+                                 const MeshTopology& mesh, bool all) {
   Parts p;
   if (all) return p;
   const auto leave = [&](bool& part, const char* name, std::string why) {
@@ -89,6 +92,12 @@ template <RealType Real>
   if (a.gravity == Vec3<Real>{}) leave(p.gravity, "gravity", "it is 0");
   if (a.damping == 0) leave(p.damping, "damping", "it is 0");
   if (!flats) leave(p.flats, "flats", "there are no facets, boxes or walls");
+  if (mesh.corners.empty()) {
+    p.shared_edges = false;
+    if (flats) leave(p.shared_edges, "shared edges", "no two facets have a corner in common");
+  } else if (scene.shared_edges == scenes::SharedEdges::each) {
+    leave(p.shared_edges, "shared edges", "contacts.shared_edges is 'each': every facet acts on its own");
+  }
   if (!scene.records("energy")) leave(p.energy, "energy", "it is not recorded");
   if (flat_z && a.gravity.z == 0 && p.bonds_alone()) {
     leave(p.third_axis, "third axis", "every body lies and moves in the plane z = 0");

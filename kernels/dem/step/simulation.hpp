@@ -109,6 +109,7 @@ class Simulation {
       ledger_->visit(archive);
       ledger_->check(s_.bodies.size());
     }
+    measure_mesh(s_);
     if (!archive.at_end()) throw ArchiveError("text is left over behind the state");
     collider_.restart();
   }
@@ -141,6 +142,7 @@ class Simulation {
     const bool by_slots = Ledger || threads_ > 1;
     collider_.update(s_, by_slots);
     const ContactPass<Real> pass = contact_pass_of(s_, collider_.coarse());
+    if (!s_.mesh.empty()) s_.contacts.touched_before = s_.contacts.touching;
     if (s_.parts.energy) clear_losses(s_.contacts);
     if (by_slots) {
       contacts_by_slots(pass);

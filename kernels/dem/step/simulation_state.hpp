@@ -19,6 +19,7 @@ struct SimulationState {
   Real sweep{0};
   Bodies<Real> bodies;
   std::vector<Flat<Real>> flats;
+  FacetMesh<Real> mesh;  // Parts::shared_edges
   std::vector<BondState<Real>> bonds;
   Contacts<Real> contacts;
   Energies<Real> energies;
@@ -28,8 +29,16 @@ struct SimulationState {
 template <RealType Real>
 [[nodiscard]] ContactPass<Real> contact_pass_of(SimulationState<Real>& s,
                                                 const std::vector<CoarseSphere>& coarse) {
-  return {s.parts,  s.law,   s.bonded_only, s.materials, s.dt,  s.iteration == 0,
-          s.bodies, s.flats, s.contacts,    s.bonds,     coarse};
+  return {s.parts,     s.law,   s.bonded_only,
+          s.materials, s.dt,    s.iteration == 0,
+          s.bodies,    s.flats, s.contacts,
+          s.bonds,     coarse,  {s.mesh.empty() ? nullptr : &s.mesh, s.bodies, s.contacts}};
+}
+
+// Takes the facets' corners as they are now.
+template <RealType Real>
+void measure_mesh(SimulationState<Real>& s) {
+  s.mesh.measure([&](std::size_t k) { return s.flats[k].facet; });
 }
 
 template <RealType Real>
@@ -60,6 +69,7 @@ void resize_contacts(SimulationState<Real>& s, std::size_t count) {
   }
   if (parts.energy) {
     c.elastic.resize(count, Real(0));
+    c.shear_elastic.resize(count, Real(0));
     c.friction_loss.resize(count, Real(0));
     c.viscous_loss.resize(count, Real(0));
     c.broken_loss.resize(count, Real(0));
@@ -149,6 +159,7 @@ void visit_state(Archive& a, SimulationState<Real>& s) {
     }
     if (s.parts.energy) {
       a.field("elastic", c.elastic[p]);
+      a.field("shear_elastic", c.shear_elastic[p]);
       a.field("viscous_before", c.viscous_before[p]);
     }
   }
@@ -180,8 +191,8 @@ template <RealType Real>
                b.angular_velocity, b.torque, b.inertia, b.orientation, b.aspherical, b.principal_inertia,
                b.angular_momentum, b.damping_before, b.damping_torque_before, b.force_before) +
          bytes(c.pair, c.touching, c.bond, c.kn, c.ks, c.tan_friction, c.cn, c.cs, c.shear, c.normal,
-               c.elastic, c.friction_loss, c.viscous_loss, c.broken_loss, c.viscous_before) +
-         bytes(s.flats, s.bonds, s.materials);
+               c.elastic, c.shear_elastic, c.friction_loss, c.viscous_loss, c.broken_loss, c.viscous_before) +
+         bytes(s.flats, s.bonds, s.materials, c.touched_before) + s.mesh.memory();
 }
 
 }  // namespace ulpgate::dem

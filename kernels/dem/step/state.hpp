@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/dem/formulas/contact_laws.hpp"
+#include "kernels/dem/mesh/facet_mesh.hpp"
 #include "kernels/dem/step/broad_phase.hpp"
 #include "kernels/dem/step/parts.hpp"
 
@@ -55,6 +56,7 @@ template <RealType Real>
 struct Contacts {
   std::vector<BodyPair> pair;
   std::vector<std::uint8_t> touching;
+  std::vector<std::uint8_t> touched_before;  // before this step; Parts::shared_edges
   std::vector<std::int32_t> bond;  // index into `bonds`, -1 where none; only where the scene has bonds
   std::vector<Real> kn;
   std::vector<Real> ks, tan_friction;     // Parts::shear
@@ -62,6 +64,7 @@ struct Contacts {
   std::vector<Vec3<Real>> shear, normal;  // Parts::shear
   // Parts::energy: of this step
   std::vector<Real> elastic, friction_loss, viscous_loss, broken_loss;
+  std::vector<Real> shear_elastic;         // the part of `elastic` that the shear spring has
   std::vector<Vec3<Real>> viscous_before;  // force on body 2 in the step before
 
   [[nodiscard]] std::size_t size() const { return pair.size(); }
@@ -76,6 +79,7 @@ struct Contacts {
     visit(shear);
     visit(normal);
     visit(elastic);
+    visit(shear_elastic);
     visit(viscous_before);
   }
 };

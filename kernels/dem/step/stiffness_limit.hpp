@@ -1,9 +1,12 @@
-// The largest step of a scene by the stiffnesses and dashpots of its contacts.
+// The largest step of a scene: by the stiffnesses and dashpots of its contacts, and by the waves that run
+// through its spheres.
 #pragma once
 
 #include <algorithm>
+#include <string>
 
 #include "kernels/dem/formulas/critical_step.hpp"
+#include "kernels/dem/formulas/sphere_body.hpp"
 #include "kernels/dem/step/simulation_state.hpp"
 
 namespace ulpgate::dem {
@@ -81,6 +84,44 @@ template <RealType Real>
     const Real c2 = 2 * dashpots[i].rate(b.mass[i], inertia);
     if (!(k > 0) && !(c2 > 0)) continue;
     const Real step = 16 / (c2 + sqrt(c2 * c2 + 4 * k)) / 5;
+    if (least == 0 || step < least) least = step;
+  }
+  return least;
+}
+
+enum class Wave { pressure, rayleigh };
+
+// Why waves say nothing of the contacts of `s`, whose materials have these names; empty where they do: the
+// springs of contacts then follow from the Young's moduli that waves know.
+template <RealType Real>
+[[nodiscard]] std::string wave_refusal(const SimulationState<Real>& s,
+                                       const std::vector<std::string>& materials) {
+  if (s.law == scenes::ContactLaw::viscoelastic)
+    return "waves know elastic materials alone, and the law 'viscoelastic' makes its springs from "
+           "collision_time";
+  // Hertz's law has no use for a stiffness that is given.
+  if (s.law == scenes::ContactLaw::hertz_mindlin) return "";
+  for (const std::int32_t m : s.bodies.material) {
+    const auto k = static_cast<std::size_t>(m);
+    if (s.materials[k].elastic.stiffness != 0)
+      return "waves know elastic materials alone, and the stiffness of the material '" + materials[k] +
+             "' is given";
+  }
+  return "";
+}
+
+// The shortest time (s) of a wave over the spheres, each of the density that its mass makes; 0 where there is
+// none.
+template <RealType Real>
+[[nodiscard]] Real wave_limit(const SimulationState<Real>& s, Wave wave) {
+  const Bodies<Real>& b = s.bodies;
+  Real least{0};
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (b.shape[i] != Shape::sphere) continue;
+    const Elastic<Real>& m = s.materials[static_cast<std::size_t>(b.material[i])].elastic;
+    const Real density = sphere_density(b.mass[i], b.radius[i]);
+    const Real step = wave == Wave::pressure ? p_wave_step(b.radius[i], density, m.young)
+                                             : rayleigh_step(b.radius[i], density, m.young, m.poisson);
     if (least == 0 || step < least) least = step;
   }
   return least;

@@ -198,6 +198,89 @@ TEST(Facet, TheNearestPointIsTheProjection) {
   }
 }
 
+// What is scaled by a power of two comes out scaled, to the last bit, where squares and fourth powers of
+// lengths have long left the range.
+TEST(SafeRange, GeometryIsTheSameInEveryUnit) {
+  using F = Vec3<float>;
+  const Facet<float> t{{0, 0, 0}, {1, 0.25F, 0}, {0.125F, 1, 0.5F}};
+  const F places[] = {{0.3F, 0.4F, 0.5F}, {0.6F, -0.6F, 0.3F}, {-0.6F, 0.4F, 0.1F},
+                      {1.3F, 0.2F, 0.3F}, {0.7F, 0.9F, 0},     {0.1F, 1.4F, 0.6F}};
+  const Quaternion<float> q = from_angle_axis(0.7F, F{0.6F, 0, 0.8F});
+  for (const int exponent : {-100, -70, -40, 40, 70, 100}) {
+    const auto in_unit = [&](const F& v) { return ScaledVec3<float>{v, exponent}.value(); };
+    const float r = std::ldexp(1.0F, exponent);
+    const Facet<float> small{in_unit(t.a), in_unit(t.b), in_unit(t.c)};
+    for (const F& x : places) {
+      const struct {
+        ContactGeometry<float> one, scaled;
+        const char* what;
+      } pairs[] = {
+          {facet_sphere(t, x, 1.0F), facet_sphere(small, in_unit(x), r), "facet"},
+          {box_sphere(F{}, t.c, q, x, 1.0F), box_sphere(F{}, in_unit(t.c), q, in_unit(x), r), "box"},
+          {sphere_sphere(t.b, 1.0F, x, 1.0F), sphere_sphere(in_unit(t.b), r, in_unit(x), r), "sphere"},
+      };
+      for (const auto& g : pairs) {
+        EXPECT_EQ(g.scaled.overlap, std::ldexp(g.one.overlap, exponent)) << g.what << ' ' << exponent;
+        EXPECT_EQ(g.scaled.normal, g.one.normal) << g.what << ' ' << exponent;
+        EXPECT_EQ(g.scaled.point, in_unit(g.one.point)) << g.what << ' ' << exponent;
+      }
+    }
+  }
+}
+
+TEST(SafeRange, LengthsAtTheEnds) {
+  const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_DOUBLE_EQ(norm(V{3e-200, 0, -4e-200}), 5e-200);
+  EXPECT_DOUBLE_EQ(norm(V{0, 3e200, 4e200}), 5e200);
+  EXPECT_EQ(norm(V{0x1p-1074, 0, 0}), 0x1p-1074) << "the least number";
+  EXPECT_EQ(norm(V{}), 0);
+  EXPECT_EQ(norm(V{1, -inf, 0}), inf);
+  EXPECT_TRUE(std::isnan(norm(V{1, NAN, 0})));
+  EXPECT_TRUE(std::isnan(norm(V{NAN, NAN, NAN})));
+  const V least{3 * 0x1p-1074, 4 * 0x1p-1074, 0};
+  EXPECT_EQ(direction(least, norm(least)), (V{0.6, 0.8, 0})) << "also of a length of few digits";
+  const V most{1.5e308, 1.5e308, 1.5e308};
+  EXPECT_EQ(norm(most), inf) << "longer than any number";
+  EXPECT_DOUBLE_EQ(direction(most, norm(most)).x, std::sqrt(1.0 / 3));
+  EXPECT_TRUE(std::isnan(direction(V{}, 0.0).x)) << "no vector has no direction";
+  const V ordinary{0.1, 0.7, -0.3};
+  EXPECT_EQ(norm(ordinary), std::sqrt(squared_norm(ordinary)));
+}
+
+TEST(SafeRange, ProductsAtTheEnds) {
+  EXPECT_DOUBLE_EQ(reduced_mass(3e-200, 6e-200), 2e-200);
+  EXPECT_DOUBLE_EQ(reduced_mass(3e200, 6e200), 2e200);
+  EXPECT_DOUBLE_EQ(reduced_mass(1e-300, 1e300), 1e-300);
+  EXPECT_DOUBLE_EQ(series_stiffness(1e200, 3.0, 2e200, 3.0), 4e200);
+  EXPECT_DOUBLE_EQ(kinetic_energy(1e-10, V{3e155, 0, 4e155}), 1.25e301);
+  EXPECT_DOUBLE_EQ(kinetic_energy(1e10, V{3e-165, 0, 4e-165}), 1.25e-319);
+  EXPECT_EQ(kinetic_energy(2.0, V{}), 0);
+  for (const double f : {1e-200, 1e200}) {
+    const auto cut = cut_to_cone(V{6 * f, 8 * f, 0}, 5 * f, f);
+    EXPECT_TRUE(cut.sliding) << f;
+    EXPECT_DOUBLE_EQ(cut.shear.x, 3 * f);
+    EXPECT_DOUBLE_EQ(cut.shear.y, 4 * f);
+    EXPECT_DOUBLE_EQ(cut.dissipation, 25 * f);
+    EXPECT_FALSE(cut_to_cone(V{3 * f, 3 * f, 0}, 5 * f, f).sliding) << f;
+  }
+  EXPECT_FALSE(cut_to_cone(V{}, 5.0, 1.0).sliding);
+  // 1e-200 rad/s for 1e200 s.
+  EXPECT_NEAR(turned(Quaternion<double>{}, V{0, 0, 1e-200}, 1e200).z, std::sin(0.5), 1e-15);
+}
+
+// Centres 1e-9 of a radius apart: the overlap has lost seven digits of it.
+TEST(SphereSphere, RelativeVelocityDeepInEachOther) {
+  const auto g = sphere_sphere(V{}, 1.0, V{1e-9, 0, 0}, 1.0);
+  EXPECT_EQ(g.distance, 1e-9);
+  EXPECT_DOUBLE_EQ(sphere_relative_velocity(g.distance, 1.0, 1.0, V{}, V{0, 1, 0}).y, 2e9);
+  EXPECT_GT(std::abs(2 / (2 - g.overlap) / 2e9 - 1), 1e-8);
+}
+
+TEST(SphereBody, DensityIsThatOfItsMass) {
+  EXPECT_DOUBLE_EQ(sphere_density(sphere_mass(0.01, 2500.0), 0.01), 2500);
+  EXPECT_FLOAT_EQ(sphere_density(4.18879020e-32F, 1e-12F), 1e4F) << "whose cube is 0 in float";
+}
+
 TEST(CriticalStep, ClosedValues) {
   EXPECT_DOUBLE_EQ(p_wave_step(0.01, 2500.0, 1e8), 5e-5);
   // nu = 0: G = E/2, fit 0.8766.

@@ -160,6 +160,56 @@ TEST(NewtonStepper, TakesLongStepsOnAStiffProblemWithoutItsJacobian) {
   EXPECT_NEAR(stepper.state()[0], std::cos(1.0), 1e-6);
 }
 
+// Roundings of r - 1 of the stretched spring, times omega^2 h, move the velocity by 4000 roundoffs: no
+// correction falls below that, and the step is as good as the type can make it.
+template <RealType Real>
+double pendulum_error_in_roundoffs() {
+  constexpr int steps = 400;
+  const auto end_of = []<RealType T>(const T&) {
+    const auto cases = initial_value_cases<T>();
+    NewtonStepper<T> stepper(case_of(cases, "stiff_pendulum_1000").problem, CollocationNodes::gauss, 4);
+    stepper.estimate_errors(false);
+    const T h = T(1) / 400;
+    for (int i = 0; i < steps; ++i) stepper.advance(static_cast<T>(i) * h, h);
+    return std::vector<T>(stepper.state().begin(), stepper.state().end());
+  };
+  const std::vector<Real> own = end_of(Real(0));
+  const std::vector<Wide> exact = end_of(Wide(0));
+  double largest = 0;
+  for (std::size_t d = 0; d < own.size(); ++d)
+    largest = std::max(largest, std::abs(static_cast<double>(Wide(Wide(own[d]) - exact[d]))));
+  return largest / static_cast<double>(std::numeric_limits<Real>::epsilon());
+}
+
+TEST(NewtonStepper, SettlesWhereOnlyRoundingsOfTheEquationsAreLeft) {
+  // The velocity at the lowest point is about sqrt 2; a step's noise is 4000 roundoffs and 400 add up.
+  EXPECT_LT(pendulum_error_in_roundoffs<float>(), 1e5);
+  EXPECT_LT(pendulum_error_in_roundoffs<double>(), 1e5);
+  EXPECT_LT(pendulum_error_in_roundoffs<long double>(), 1e5);
+}
+
+// Stage equations without a solution: z = h/2 (1 + z^2) beyond h = 1, and a slope that jumps back over where
+// the solution would have to be.
+TEST(NewtonStepper, TakesNothingForASolutionWhereThereIsNone) {
+  const auto escaping = autonomous_problem<float>(
+      {0}, []<class T>(std::span<const T> y, std::span<T> out) { out[0] = float(1) + y[0] * y[0]; });
+  NewtonStepper<float> midpoint(escaping, CollocationNodes::gauss, 1);
+  EXPECT_TRUE(midpoint.attempt(0, 0.5F));
+  for (const float h : {1.5F, 4.F, 1e3F, 1e6F, 1e12F}) EXPECT_FALSE(midpoint.attempt(0, h)) << h;
+  const auto jumping =
+      first_order_problem<float>({0}, [](const float&, std::span<const float> y, std::span<float> out) {
+        out[0] = y[0] < 0.25F ? 1.F : -1.F;
+      });
+  for (const int stages : {1, 2, 3}) {
+    for (const CollocationNodes nodes : {CollocationNodes::gauss, CollocationNodes::radau}) {
+      if (stages == 1 && nodes == CollocationNodes::radau) continue;
+      NewtonStepper<float> stepper(jumping, nodes, stages);
+      EXPECT_TRUE(stepper.attempt(0, 0.125F)) << stages;
+      EXPECT_FALSE(stepper.attempt(0, 2)) << stages;
+    }
+  }
+}
+
 TEST(StepControl, FollowsRobertsonToItsEndAndRefusesWhatIsHopeless) {
   const auto cases = initial_value_cases<double>();
   const auto& robertson = case_of(cases, "robertson");

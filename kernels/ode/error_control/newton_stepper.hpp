@@ -183,7 +183,7 @@ class NewtonStepper final : public ErrorStepper<Real> {
         residual(at(i * n() + d)) = h * sum - z_[i][d];
       }
     }
-    const Vector change = lu_.solve(residual);
+    correction_ = lu_.solve(residual);
     // Below this, a component has not all digits of the type.
     const Real least = std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
     Change largest;
@@ -193,7 +193,7 @@ class NewtonStepper final : public ErrorStepper<Real> {
       Real size = std::max<Real>(abs(this->state()[d]), least);
       Real moved(0);
       for (std::size_t i = 0; i < s(); ++i) {
-        const Real& dz = change(at(i * n() + d));
+        const Real& dz = correction_(at(i * n() + d));
         z_[i][d] += dz;
         if (abs(z_[i][d]) > size) size = abs(z_[i][d]);
         if (!(abs(dz) <= moved)) moved = abs(dz);
@@ -205,6 +205,59 @@ class NewtonStepper final : public ErrorStepper<Real> {
     }
     largest.normwise = most / whole;
     return largest;
+  }
+
+  // Of each component, or where the problem is q'' = a(q) of all positions and of all velocities: their axes
+  // are nobody's choice.
+  [[nodiscard]] std::vector<Real> sizes_of_stages() const {
+    using std::abs;
+    std::vector<Real> size(n(), Real(0));
+    for (std::size_t d = 0; d < n(); ++d) {
+      size[d] = abs(this->state()[d]);
+      for (std::size_t j = 0; j < s(); ++j) size[d] = std::max<Real>(size[d], abs(z_[j][d]));
+    }
+    if (!this->problem().acceleration) return size;
+    const auto half = size.begin() + static_cast<std::ptrdiff_t>(n() / 2);
+    std::fill(size.begin(), half, Real(*std::max_element(size.begin(), half)));
+    std::fill(half, size.end(), Real(*std::max_element(half, size.end())));
+    return size;
+  }
+
+  // Whether the last correction is no more than what roundings of one evaluation of the stage equations come
+  // to: |M^-1| h |A| u (|J| |Y| + |f|), Y the stages, rounded arguments of the slope.  That is the limiting
+  // accuracy of Newton's iteration (F. Tisseur, SIAM J. Matrix Anal. Appl. 22 (2001) 1038).  Never where it
+  // exceeds a quarter of the size of what moves: there the equations determine nothing.
+  [[nodiscard]] bool at_rounding(const Real& t, const Real& h) {
+    using std::abs;
+    const Real u = std::numeric_limits<Real>::epsilon() / 2;
+    std::vector<std::vector<Real>> of_slope(s(), std::vector<Real>(n()));
+    std::vector<Real> stage(n());
+    std::vector<Real> j_of_stage;
+    for (std::size_t j = 0; j < s(); ++j) {
+      for (std::size_t d = 0; d < n(); ++d) stage[d] = this->state()[d] + z_[j][d];
+      jacobian(Real(t + t_.c[j] * h), stage, j_of_stage);
+      for (std::size_t d = 0; d < n(); ++d) {
+        Real sum = abs(slopes_[j][d]);
+        for (std::size_t c = 0; c < n(); ++c) sum += abs(j_of_stage[d * n() + c]) * abs(stage[c]);
+        of_slope[j][d] = u * sum;
+      }
+    }
+    Vector residual(at(s() * n()));
+    for (std::size_t i = 0; i < s(); ++i) {
+      for (std::size_t d = 0; d < n(); ++d) {
+        Real sum(0);
+        for (std::size_t j = 0; j < s(); ++j) sum += abs(t_.a[i][j]) * of_slope[j][d];
+        residual(at(i * n() + d)) = abs(h) * sum + u * abs(z_[i][d]);
+      }
+    }
+    const std::vector<Real> size = sizes_of_stages();
+    const Matrix inverse = lu_.inverse();
+    for (std::size_t k = 0; k < s() * n(); ++k) {
+      Real bound(0);
+      for (std::size_t c = 0; c < s() * n(); ++c) bound += abs(inverse(at(k), at(c))) * residual(at(c));
+      if (!(abs(correction_(at(k))) <= 2 * bound) || !(4 * bound <= size[k % n()])) return false;
+    }
+    return true;
   }
 
   // Until the stages' error is below the tolerance, or rounding keeps it from falling on.
@@ -229,8 +282,8 @@ class NewtonStepper final : public ErrorStepper<Real> {
         if (rate < 1 && change * rate <= wanted * (1 - rate)) return true;
         if (rate > Real(1) / 2) {
           ++without_progress;
-          const bool at_rounding = change < sqrt(u) / 16 || moved.normwise <= 256 * u;
-          if (without_progress >= 3 && at_rounding) return true;
+          const bool small = change < sqrt(u) / 16 || moved.normwise <= 256 * u;
+          if (without_progress >= 3 && (small || at_rounding(t, h))) return true;
           // Far from the solution a small component may wander for a while.
           if (without_progress >= 12) return false;
         }
@@ -279,6 +332,7 @@ class NewtonStepper final : public ErrorStepper<Real> {
   std::vector<std::vector<Real>> z_;
   std::vector<std::vector<Real>> slopes_;
   Eigen::PartialPivLU<Matrix> lu_;
+  Vector correction_;  // of the stages, the last one
 };
 
 }  // namespace ulpgate::ode

@@ -14,10 +14,10 @@ inline constexpr std::uint64_t most_pairs = std::uint64_t{1} << 29U;
 // More needs to be asked for.
 inline constexpr std::uint64_t most_bytes = std::uint64_t{4} << 30U;
 
-// Bytes of a pair that may touch, or that a bond joins, with all parts: 18 numbers of its own and 4 of a
+// Bytes of a pair that may touch, or that a bond joins, with all parts: 19 numbers of its own and 4 of a
 // bond.
 template <RealType Real>
-inline constexpr std::uint64_t bytes_of_pair = 22 * sizeof(Real) + 64;
+inline constexpr std::uint64_t bytes_of_pair = 23 * sizeof(Real) + 64;
 // Bytes of a body while a scene is loaded, which has it twice, with all parts; dense packings have some six
 // contacts a body.
 template <RealType Real>

@@ -20,6 +20,10 @@ using Triple = std::array<Expression, 3>;
 enum class ContactLaw { frictional, viscoelastic, hertz_mindlin, cohesive };
 // Which bodies may touch: all, or only those that a bond joins.
 enum class ContactsBetween { all, bonded };
+// What facets that have corners in common do where a sphere touches an edge or a corner of theirs.  once:
+// they are one surface, whose contacts do not depend on how it is cut into triangles; each: every facet
+// pushes on its own, so that near a seam several do.
+enum class SharedEdges { once, each };
 // full: every constant in the precision of the run; yade: 4/3 pi of the masses of spheres computed in double,
 // the contamination described in the scene `pendulum3`.
 enum class MassRule { full, yade };
@@ -32,7 +36,7 @@ struct Material {
   std::string name;
   Expression density = "1000";  // kg/m^3
   Expression young = "1e7";     // Pa
-  // N/m of a body's own spring in linear contacts, in place of young * radius (critical steps keep young).
+  // N/m of a body's own spring in linear contacts, in place of young * radius (the steps of waves then say nothing).
   std::optional<Expression> stiffness;
   Expression poisson = "0";         //
   Expression friction_angle = "0";  // degrees
@@ -116,6 +120,7 @@ struct Scene {
 
   ContactLaw law = ContactLaw::frictional;
   ContactsBetween between = ContactsBetween::all;
+  SharedEdges shared_edges = SharedEdges::once;
   MassRule mass_rule = MassRule::full;
   ConstantsRule constants_rule = ConstantsRule::rounded_once;
 

@@ -70,6 +70,11 @@ std::optional<SceneError> apply_override(Scene& scene, std::string_view key_valu
     scene.constants_rule = value == "stepwise" ? ConstantsRule::stepwise : ConstantsRule::rounded_once;
     return std::nullopt;
   }
+  if (key == "shared_edges") {
+    if (value != "once" && value != "each") return error(key, "'" + value + "' is none of once, each");
+    scene.shared_edges = value == "each" ? SharedEdges::each : SharedEdges::once;
+    return std::nullopt;
+  }
   Scene changed = scene;
   const Target target = target_of(changed, key);
   if (target.value == nullptr) return error(key, "nothing of this name can be changed");

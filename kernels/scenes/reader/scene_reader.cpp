@@ -211,6 +211,8 @@ void read_contacts(Document& document, Fields& root, Scene& scene) {
                         {"cohesive", ContactLaw::cohesive}});
   f.choice<ContactsBetween>("between", scene.between,
                             {{"all", ContactsBetween::all}, {"bonded", ContactsBetween::bonded}});
+  f.choice<SharedEdges>("shared_edges", scene.shared_edges,
+                        {{"once", SharedEdges::once}, {"each", SharedEdges::each}});
   f.number("bond_reach", scene.bond_reach, Range::positive);
   f.number("sweep", scene.sweep, Range::positive);
   f.finish();

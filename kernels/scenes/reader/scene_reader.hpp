@@ -29,8 +29,9 @@ struct ReadResult {
 // expression, or TOML floats; the digits of a float are taken from the text, so none are lost.
 [[nodiscard]] ReadResult read_scene(std::string_view text, std::string_view file);
 
-// "dt=1e-6", "damping=5e-3", "mass=yade", "gravity.y=-1.62", "material.grain.friction_angle=20", or the name
-// of one of the scene's constants.  Returns the error, or none.
+// "dt=1e-6", "damping=5e-3", "mass=yade", "shared_edges=each", "gravity.y=-1.62",
+// "material.grain.friction_angle=20", or the name of one of the scene's constants.  Returns the error, or
+// none.
 [[nodiscard]] std::optional<SceneError> apply_override(Scene& scene, std::string_view key_value);
 
 }  // namespace ulpgate::scenes

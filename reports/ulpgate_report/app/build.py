@@ -1,6 +1,8 @@
 """Writes a whole report: the tables, figures and sections of every kind of record that the run has."""
 from ulpgate_report.app import output, summary
+from ulpgate_report.collisions import kind as kind_collisions
 from ulpgate_report.figures import figure_style
+from ulpgate_report.history import kind as kind_history
 from ulpgate_report.kernels import kind as kind_kernels
 from ulpgate_report.math import kind as kind_math
 from ulpgate_report.page import page, page_views
@@ -15,8 +17,10 @@ KINDS = (
     kind_kernels,
     kind_pendulum,
     kind_scenes,
+    kind_collisions,
     kind_stability,
     kind_work_precision,
+    kind_history,
 )
 _FORMATS = {
     "csv": table_csv.render,
@@ -102,6 +106,7 @@ def write_report(context, parts, out, left_out=()):
             data.get(kind_pendulum),
             data.get(kind_stability),
             data.get(kind_work_precision),
+            data.get(kind_collisions),
         ),
     )
     drawn = _write_figures(parts, out)

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from ulpgate_report.app import build
+from ulpgate_report.history import history_file
 from ulpgate_report.records import suite
 from ulpgate_report.records.errors import OutputFailure, ReportError
 from ulpgate_report.tables import table_text
@@ -25,7 +26,7 @@ def _parser():
     parser = argparse.ArgumentParser(
         prog="report",
         description="Tables, figures and a page from the records that `ulpgate` wrote to DIR: of math functions, of DEM kernels, "
-        "of scenes, of the pendulum, of integrators, of stiff and extreme cases and of error against run time, whichever are there; "
+        "of scenes, of collisions, of the pendulum, of integrators, of stiff and extreme cases and of error against run time, whichever are there; "
         "DIR may also be a directory of such directories.",
         epilog="exit codes: 0 ok, 2 bad usage or invalid input, 3 nothing measured, 4 I/O failure",
     )
@@ -38,6 +39,12 @@ def _parser():
         type=_pair,
         help="draw error against run time with these axes, two of "
         f"{', '.join(axes.QUANTITIES)}; may be given more than once (default: {','.join(axes.DEFAULT)})",
+    )
+    parser.add_argument(
+        "--history",
+        metavar="FILE",
+        type=Path,
+        help="also the trends of the runs that `ulpgate history --add` put into FILE",
     )
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--out", metavar="OUT", type=Path, help="write the report there")
@@ -71,6 +78,8 @@ def main(argv):
         run = suite.load(arguments.directory)
         # Each pair once, as it was given first.
         run = dataclasses.replace(run, axes=tuple(dict.fromkeys(arguments.axes)))
+        if arguments.history is not None:
+            run = dataclasses.replace(run, history=history_file.load(arguments.history))
         parts = build.parts_of(run)
         if not run.context.get("complete", True):
             print(

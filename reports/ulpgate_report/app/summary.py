@@ -94,6 +94,7 @@ def build(
     pendulum=None,
     stress=None,
     work_precision=None,
+    collisions=None,
 ):
     """The summary as an object that its schema accepts; what was not run is left out."""
     found = {"tool": context["tool"], "plan": context["plan"]}
@@ -121,6 +122,10 @@ def build(
         front = work_precision_tables.front_rows(work_precision)
         found["work_precision_front"] = [_best(*one) for one in front]
         found["work_precision_fits"] = list(work_precision.fits)
+    if collisions:
+        found["collisions"] = [
+            {**run.totals, "scene": run.scene} for run in collisions.runs
+        ]
     # A broken summary is a fault of this program, not of its input: let it abort.
     reading.validator("summary").validate(found)
     return found

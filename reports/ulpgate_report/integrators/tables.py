@@ -1,6 +1,6 @@
 """The tables of the integrators' orders as plain data."""
 from ulpgate_report.integrators import orders
-from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.tables.table import Column, Table, columns_of
 from ulpgate_report.values import numbers
 
 _PROBLEM = Column("problem", "problem", "code")
@@ -34,10 +34,13 @@ def order_table(pendulum):
         _INTEGRATOR,
         _TYPE,
         _ORDER,
-        Column("measured_order", "measured", "real"),
-        Column("smallest_dt", "smallest step", "real"),
-        Column("smallest_error", "smallest error", "real"),
-        Column("smallest_error_u", "in units u", "real"),
+        *columns_of(
+            "real",
+            measured_order="measured",
+            smallest_dt="smallest step",
+            smallest_error="smallest error",
+            smallest_error_u="in units u",
+        ),
         Column("floor", "floor reached", "text"),
     )
     caption = (
@@ -71,10 +74,13 @@ def drift_table(pendulum):
         _PROBLEM,
         _INTEGRATOR,
         _TYPE,
-        Column("dt", "step", "real"),
-        Column("t_end", "end", "real"),
-        Column("max_energy_error", "largest energy error", "real"),
-        Column("energy_slope", "slope", "real"),
+        *columns_of(
+            "real",
+            dt="step",
+            t_end="end",
+            max_energy_error="largest energy error",
+            energy_slope="slope",
+        ),
     )
     caption = (
         "Largest error of the energy along a problem with a known one, and the slope of the logarithm of the error "
@@ -112,8 +118,7 @@ def order_records(pendulum):
         _ORDER,
         Column("dt", "step", "real"),
         Column("steps", "steps", "count"),
-        Column("error", "error", "real"),
-        Column("measured_order", "measured order", "real"),
+        *columns_of("real", error="error", measured_order="measured order"),
     )
     caption = "Every error of an integrator on a problem with a known solution."
     return Table("order_records", caption, columns, tuple(rows))

@@ -68,18 +68,9 @@ def _hover(row, token, cell):
 
 def _heat_view(combined):
     """The matrix of errors over condition with colours and hover text."""
-    cells = [
-        [
-            (row, token, combined.cells[row, token])
-            if (row, token) in combined.cells
-            else None
-            for token in combined.type_tokens
-        ]
-        for row in combined.rows
-    ]
     return page_views.heat_view(
         tables.kernel_stability(combined),
-        cells,
+        page_views.cells_of(combined),
         lambda cell: cell[2].max_normwise_over_condition,
         lambda cell: _hover(*cell),
         heat_colours.ROUNDINGS,

@@ -1,6 +1,6 @@
 """The tables of a run of kernels as plain data."""
 from ulpgate_report.kernels.combine import STABILITY_LIMIT, UNSTABLE, row_of_record
-from ulpgate_report.tables.table import Column, Judged, Marked, Table
+from ulpgate_report.tables.table import Column, Judged, Marked, Table, columns_of
 from ulpgate_report.values import numbers
 
 _QUANTITY = Column("quantity", "kernel, quantity", "code")
@@ -71,8 +71,7 @@ def kernel_errors(combined):
         _TYPE,
         Column("max_ulp", "max ULP", "ulp"),
         Column("ulp_stratum", "stratum", "text"),
-        Column("max_normwise", "normwise (u)", "ulp"),
-        Column("condition", "condition there", "ulp"),
+        *columns_of("ulp", max_normwise="normwise (u)", condition="condition there"),
         Column("normwise_stratum", "stratum there", "text"),
         Column("max_normwise_over_condition", "error / (condition u)", "ulp"),
         Column("reading", "reading", "text"),
@@ -105,9 +104,12 @@ def kernel_unstable(combined):
         _QUANTITY,
         _TYPE,
         _STRATUM,
-        Column("max_normwise_over_condition", "error / (condition u)", "ulp"),
-        Column("max_normwise", "normwise (u)", "ulp"),
-        Column("condition", "condition there", "ulp"),
+        *columns_of(
+            "ulp",
+            max_normwise_over_condition="error / (condition u)",
+            max_normwise="normwise (u)",
+            condition="condition there",
+        ),
         Column("reproducer", "reproducer", "command"),
     )
     caption = (

@@ -1,6 +1,6 @@
 """What is tabled of the math functions: columns and rows, without any format."""
 from ulpgate_report.math.combine import PAPER_STRATA
-from ulpgate_report.tables.table import Column, Marked, Table
+from ulpgate_report.tables.table import Column, Marked, Table, columns_of
 from ulpgate_report.values import numbers
 from ulpgate_report.values.row import Row
 
@@ -65,10 +65,8 @@ def ulp_table(combined):
                     )
                 )
     columns = (
-        Column("function", "function", "code"),
-        Column("type", "type", "code"),
-        Column("max_ulp", "max ULP", "ulp"),
-        Column("p99_ulp", "p99 ULP", "ulp"),
+        *columns_of("code", function="function", type="type"),
+        *columns_of("ulp", max_ulp="max ULP", p99_ulp="p99 ULP"),
         Column("stratum", "stratum", "text"),
         Column("argument", "argument", "arguments"),
         Column("mismatches", "mismatches", "count"),

@@ -59,6 +59,24 @@ def table_view(table):
     }
 
 
+def cells_by_type(groups, tokens):
+    """The cells of a matrix for `heat_view`: a line for each {type: cell}, None where there is none."""
+    return [[of_type.get(token) for token in tokens] for of_type in groups]
+
+
+def cells_of(combined):
+    """The cells (row, type, what was measured) of what is combined by row and type, for `heat_view`."""
+    return [
+        [
+            (row, token, combined.cells[row, token])
+            if (row, token) in combined.cells
+            else None
+            for token in combined.type_tokens
+        ]
+        for row in combined.rows
+    ]
+
+
 def heat_view(table, cells, value_of, hover, scale, link=None):
     """A matrix with colours and hover text; `cells` has a line of cells for each row of the table.
 

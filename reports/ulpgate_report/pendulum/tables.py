@@ -1,7 +1,7 @@
 """The tables of the pendulum as plain data: how long each type stays true, and how well it keeps the energy."""
 from ulpgate_report.pendulum import published
 from ulpgate_report.records.pendulum_records import HALF_STEP, OWN_REFERENCE
-from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.tables.table import Column, Table, columns_of
 from ulpgate_report.values import numbers, time_step, type_order
 
 _SCENE = Column("scene", "scene", "code")
@@ -118,8 +118,7 @@ def pendulum_correlations(pendulum):
         Column("against", "against", "text"),
         _DT,
         Column("t_s", "t_s (s)", "real"),
-        Column("lower_bound", "lower bound", "text"),
-        Column("limited_by", "limited by", "text"),
+        *columns_of("text", lower_bound="lower bound", limited_by="limited by"),
         Column("published_t_s", "published (s)", "real"),
         Column("plan", "plan", "code"),
     )
@@ -149,12 +148,15 @@ def pendulum_energy(pendulum):
         _VARIANT,
         _TYPE,
         _DT,
-        Column("t_end_s", "end (s)", "real"),
-        Column("energy_start_J", "energy at start (J)", "real"),
-        Column("max_energy_error_J", "largest error (J)", "real"),
-        Column("max_energy_error_raw_J", "raw (J)", "real"),
-        Column("energy_slope", "slope", "real"),
-        Column("energy_slope_raw", "slope, raw", "real"),
+        *columns_of(
+            "real",
+            t_end_s="end (s)",
+            energy_start_J="energy at start (J)",
+            max_energy_error_J="largest error (J)",
+            max_energy_error_raw_J="raw (J)",
+            energy_slope="slope",
+            energy_slope_raw="slope, raw",
+        ),
     )
     caption = (
         "Largest distance of the energy from its start, with the mean of the velocities of two half steps and, raw, with "

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from ulpgate_report.records import (
     checksums,
+    collision_records,
     pendulum_records,
     reading,
     scene_records,
@@ -30,7 +31,9 @@ class Run:
     notes: tuple = ()
     stress: object = None
     work_precision: object = None
+    collisions: object = None
     axes: tuple = ()
+    history: object = None
 
 
 def _require(context, name, file):
@@ -166,11 +169,12 @@ def load(directory, name="", chains=None):
     has_pendulum = pendulum_records.are_in(directory)
     has_stress = stress_records.are_in(directory)
     has_work = work_precision_records.are_in(directory)
-    judged = has_math or has_kernels or has_stress or has_work
+    has_collisions = collision_records.are_in(directory)
+    judged = has_math or has_kernels or has_stress or has_work or has_collisions
     if not (judged or has_scenes or has_pendulum):
         raise NothingMeasured(
             f"{directory}: no record in math.jsonl, kernels.jsonl, scenes.jsonl, correlation.jsonl, orders.jsonl, drift.jsonl, "
-            f"{stress_records.FILE} or {work_precision_records.FILE}"
+            f"{stress_records.FILE}, {work_precision_records.FILE} or {collision_records.FILE}"
         )
     path = directory / "context.json"
     context = reading.parse(reading.read(path), path.name, "context")
@@ -187,6 +191,11 @@ def load(directory, name="", chains=None):
         stress=stress_records.load(directory) if has_stress else None,
         work_precision=(
             work_precision_records.load(directory, context) if has_work else None
+        ),
+        collisions=(
+            collision_records.load(directory, scenes.records if scenes else ())
+            if has_collisions
+            else None
         ),
     )
     # Last: a line that is refused says more.

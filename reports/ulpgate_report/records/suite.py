@@ -1,7 +1,9 @@
 """A suite: a directory of run directories, reported as one; a directory that is a run by itself is read as that."""
+import dataclasses
 from pathlib import Path
 
 from ulpgate_report.records import (
+    collision_records,
     pendulum_records,
     records,
     scene_records,
@@ -47,11 +49,16 @@ def _merged_context(contexts):
     return merged
 
 
+def _scene_name(scene, run):
+    """A scene's name with that of the run: the same scene may be in several."""
+    return f"{scene}_{run}"
+
+
 def _renamed(scenes, name):
-    """The scenes under names that tell the run: the same scene may be in several."""
+    """The scenes under names that tell the run."""
 
     def scene(old):
-        return f"{old}_{name}"
+        return _scene_name(old, name)
 
     def rows(found):
         return tuple({**row, "scene": scene(row["scene"])} for row in found)
@@ -129,6 +136,17 @@ def _merged_work_precision(runs):
     return merged if found else None
 
 
+def _merged_collisions(runs):
+    """The collisions of all runs, scenes named as theirs are; None where no run has any."""
+    found = [
+        dataclasses.replace(one, scene=_scene_name(one.scene, name))
+        for name, run in runs.items()
+        if run.collisions
+        for one in run.collisions.runs
+    ]
+    return collision_records.made_of(found) if found else None
+
+
 def _load_members(paths):
     """({name: run}, sentences about those left out)."""
     chains = set()
@@ -183,7 +201,8 @@ def load(directory):
     scenes = _merged_scenes(runs)
     chains = [one for run in runs.values() if run.pendulum for one in run.pendulum.runs]
     stress, work_precision = _merged_stress(runs), _merged_work_precision(runs)
-    if not (scenes or chains or stress or work_precision):
+    collisions = _merged_collisions(runs)
+    if not (scenes or chains or stress or work_precision or collisions):
         raise NothingMeasured(f"{directory}: no record of a scene in any run")
     return records.Run(
         _merged_context({name: run.context for name, run in runs.items()}),
@@ -194,4 +213,5 @@ def load(directory):
         notes=(*notes, *_notes(directory, runs)),
         stress=stress,
         work_precision=work_precision,
+        collisions=collisions,
     )

@@ -11,15 +11,15 @@ FITS_FILE = "work_precision_fits.jsonl"
 _SCHEMA = "work_precision"
 _CURVE = ("subject", "name", "type", "integrator", "end")
 _SETTING = (*_CURVE, "steps", "dt_text")
-_FIT = (*_CURVE, "error")
-_TIMES = ("seconds", "median_s", "spread_s", "repeats", "noise_floor")
+_FIT = (*_CURVE, "planned", "error")
+_TIMES = ("seconds", "median_s", "spread_s", "repeats", "noise_floor", "on_front")
 
 
 @dataclass(frozen=True)
 class WorkPrecision:
     """`rows` are the measured settings, each with its times where it was timed; `untold` counts times of no setting.
 
-    What was run to several ends is told apart by its name.
+    What was run to several ends is told apart by its name; `case` keeps the name that the program knows.
     """
 
     rows: tuple
@@ -74,7 +74,7 @@ def load(directory, context):
     timed = _keyed(directory / TIMING_FILE, "work_precision_timing", _SETTING)
     fits = _keyed(directory / FITS_FILE, "work_precision_fit", _FIT)
     rows = [
-        {**row, **{name: timed.get(key, {}).get(name) for name in _TIMES}}
+        {**row, "case": row["name"], **{n: timed.get(key, {}).get(n) for n in _TIMES}}
         for key, row in measured.items()
     ]
     several = _of_several_ends(rows)

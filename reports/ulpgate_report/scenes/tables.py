@@ -2,7 +2,7 @@
 import math
 
 from ulpgate_report.scenes import benchmark
-from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.tables.table import Column, Table, columns_of
 from ulpgate_report.values import numbers
 
 _SCENE = Column("scene", "scene", "code")
@@ -42,13 +42,15 @@ def scene_table(scenes):
         Column("dt_s", "dt (s)", "text"),
         Column("steps", "steps", "count"),
         Column("t_end_s", "end (s)", "real"),
-        Column("bodies", "bodies", "count"),
-        Column("contacts", "contacts", "count"),
-        Column("kinetic_half_step_J", "kinetic, half step (J)", "real"),
-        Column("mean_x_m", "mean x (m)", "real"),
-        Column("mean_y_m", "mean y (m)", "real"),
-        Column("mean_z_m", "mean z (m)", "real"),
-        Column("max_energy_error_J", "energy error (J)", "real"),
+        *columns_of("count", bodies="bodies", contacts="contacts"),
+        *columns_of(
+            "real",
+            kinetic_half_step_J="kinetic, half step (J)",
+            mean_x_m="mean x (m)",
+            mean_y_m="mean y (m)",
+            mean_z_m="mean z (m)",
+            max_energy_error_J="energy error (J)",
+        ),
     )
     caption = (
         "Scenes at their end: kinetic energy of the velocities half a step before, mean position of the bodies, and the largest distance of the energy "
@@ -76,8 +78,7 @@ def scene_states(scenes):
         _SCENE,
         _TYPE,
         Column("variant", "variant", "text"),
-        Column("state_hash", "state hash", "code"),
-        Column("plan", "plan", "code"),
+        *columns_of("code", state_hash="state hash", plan="plan"),
         Column("left_out", "left out, and why", "prose"),
     )
     caption = "Hash of the last state, to compare bit for bit, and the parts of a step that the scene did not need."
@@ -131,8 +132,11 @@ def divergence_table(scenes):
         _SCENE,
         _TYPE,
         Column("step", "last step", "count"),
-        Column("max_position_error_m", "position error (m)", "real"),
-        Column("max_position_ulp", "position error (ULP)", "real"),
+        *columns_of(
+            "real",
+            max_position_error_m="position error (m)",
+            max_position_ulp="position error (ULP)",
+        ),
         Column("other_contacts_step", "other contacts from step", "count"),
     )
     caption = (
@@ -177,15 +181,16 @@ def benchmark_table(scenes):
     columns = (
         _SCENE,
         _TYPE,
-        Column("threads", "threads", "count"),
-        Column("steps", "steps", "count"),
+        *columns_of("count", threads="threads", steps="steps"),
         Column("kept", "repeats kept", "text"),
-        Column("iterations_per_s", "iterations/s", "real"),
-        Column("deviation", "deviation", "real"),
+        *columns_of("real", iterations_per_s="iterations/s", deviation="deviation"),
         Column("memory_bytes", "memory (bytes)", "count"),
-        Column("slowdown", "slowdown", "real"),
-        Column("slowdown_deviation", "deviation", "real"),
-        Column("paper_slowdown", "slowdown, paper", "real"),
+        *columns_of(
+            "real",
+            slowdown="slowdown",
+            slowdown_deviation="deviation",
+            paper_slowdown="slowdown, paper",
+        ),
     )
     caption = (
         "Iterations per second: mean and standard deviation of the repeats within two standard deviations; slowdown "

@@ -73,14 +73,9 @@ def _hover(row):
 
 def _matrix_block(stress, kind, names):
     """The table of a kind: coloured letters, each a link to its record."""
-    tokens = stress.type_tokens
-    cells = [
-        [of_type.get(token) for token in tokens]
-        for of_type in stress.of_kind(kind).values()
-    ]
     view = page_views.heat_view(
         tables.kind_matrix(stress, kind),
-        cells,
+        page_views.cells_by_type(stress.of_kind(kind).values(), stress.type_tokens),
         lambda row: verdicts.BY_NAME[row["verdict"]].letter,
         _hover,
         verdicts.Scale,

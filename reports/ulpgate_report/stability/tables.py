@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 from ulpgate_report.records import stress_records as records
 from ulpgate_report.stability import verdicts
-from ulpgate_report.tables.table import Column, Judged, Table
+from ulpgate_report.tables.table import Column, Judged, Table, columns_of
 from ulpgate_report.values import numbers
 
 _CASE = Column("case", "case", "code")
@@ -173,17 +173,17 @@ def stress_records(stress):
         _TYPE,
         _VERDICT,
         Column("expected", "expected", "text"),
-        Column("error", "error", "real"),
-        Column("stepping_error", "error of the step", "real"),
-        Column("condition", "condition", "real"),
-        Column("correct_digits", "correct digits", "real"),
-        Column("roundoff", "u", "real"),
-        Column("first_wrong", "first wrong", "prose"),
-        Column("cause", "cause", "prose"),
-        Column("why", "why", "prose"),
+        *columns_of(
+            "real",
+            error="error",
+            stepping_error="error of the step",
+            condition="condition",
+            correct_digits="correct digits",
+            roundoff="u",
+        ),
+        *columns_of("prose", first_wrong="first wrong", cause="cause", why="why"),
         Column("reproducer", "command", "command"),
-        Column("figures", "further numbers", "prose"),
-        Column("title", "what it is", "prose"),
+        *columns_of("prose", figures="further numbers", title="what it is"),
     )
     caption = (
         "Every case in every type: error of rounding (relative, normwise), error of the time step in exact arithmetic, "

@@ -11,6 +11,11 @@ class Column:
     kind: str
 
 
+def columns_of(kind, **titles):
+    """Columns of one kind, in their order: `columns_of("real", error="largest error", seconds="time (s)")`."""
+    return tuple(Column(name, title, kind) for name, title in titles.items())
+
+
 @dataclass(frozen=True)
 class Marked:
     """A measured value with the number of mismatches beside it."""

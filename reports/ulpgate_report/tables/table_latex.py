@@ -1,8 +1,11 @@
 """Writes a table as a LaTeX longtable (booktabs, siunitx), and a document that shows all of them."""
 from ulpgate_report.tables import cell_text
+from ulpgate_report.tables.table import Table
 
 ARGUMENT_DIGITS = 13
 COLUMNS_OF_PORTRAIT = 9
+# Beside more columns than these a command has no room.
+COLUMNS_OF_COMMANDS = 10
 PROSE_MM, SHARED_PROSE_MM = 70, 80
 _SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -58,6 +61,16 @@ def _shape(kind, prose_mm):
     return "r" if kind in cell_text.NUMERIC_KINDS else "l"
 
 
+def _without_commands(table):
+    """The table without its commands where it is too wide for them; the caption says so."""
+    kept = [i for i, c in enumerate(table.columns) if c.kind != "command"]
+    if len(table.columns) <= COLUMNS_OF_COMMANDS or len(kept) == len(table.columns):
+        return table
+    rows = tuple(tuple(row[i] for i in kept) for row in table.rows)
+    caption = f"{table.caption} The commands are in the CSV file."
+    return Table(table.name, caption, tuple(table.columns[i] for i in kept), rows)
+
+
 def _caption(table):
     text = table.caption
     cut = any(
@@ -72,6 +85,7 @@ def _caption(table):
 
 def render(table):
     """The longtable; it repeats its head on every page."""
+    table = _without_commands(table)
     kinds = [column.kind for column in table.columns]
     # One column of prose has room; several are in tables that are wide already.
     several = kinds.count("prose")

@@ -156,6 +156,39 @@ def fit(name, integrator, token, **changes):
     return {**found, **changes}
 
 
+def fits_of(name, rows, kind="trajectory", error="energy_error", chaos=1.0):
+    """The laws that `settings` makes its errors of, with the best of its steps."""
+    orders = {row[0]: row[1] for row in INTEGRATORS}
+    factors = {row[0]: row[3] for row in INTEGRATORS}
+    curves = {}
+    for row in rows:
+        if row["name"] == name and not row["failure"]:
+            curves.setdefault((row["integrator"], row["type"]), []).append(row)
+    found = []
+    for (integrator, token), mine in curves.items():
+        best, order = min(mine, key=lambda row: row[error]), orders[integrator]
+        part = (3 if error == "energy_error" else 1) / chaos
+        law = {
+            "constant": factors[integrator] * (0.5 + share(name, order)) / part,
+            "order": order,
+            "walk": (0.5 + share(name, integrator)) / part,
+            "best_dt": best["dt"],
+            "best_error": best[error],
+        }
+        found.append(
+            fit(
+                name,
+                integrator,
+                token,
+                subject=kind,
+                error=error,
+                crossing_dt=None,
+                **law,
+            )
+        )
+    return found
+
+
 def write(directory, rows, times=(), fits=()):
     """Write the files of a run; without times or fits, none of those."""
     directory = Path(directory)
@@ -182,7 +215,9 @@ def everything(tokens=tuple(BITS)):
         settings("collision", tokens, INTEGRATORS[1:4], "scene", 0.05),
     ]
     rows = [row for lines, _ in found for row in lines]
-    fits = [fit("kepler", "leapfrog", token) for token in tokens]
+    fits = fits_of("kepler", rows) + fits_of("pendulum3", rows, chaos=1e4)
+    fits += fits_of("robertson", rows, error="final_error")
+    fits += fits_of("deposition", rows, "scene", chaos=50.0)
     return rows, [one for _, times in found for one in times], fits
 
 

@@ -10,7 +10,8 @@ from ulpgate_report.values import numbers
 class Quantity:
     """A quantity of a setting; `fields` are tried in turn. Of `dt` the larger one is the cheaper.
 
-    Those `of_runs` are of a problem or scene: functions and kernels have none.
+    Those `of_runs` are of a problem or scene: functions and kernels have none. `unit` is empty of a count, and of the
+    step of a problem, which has its own.
     """
 
     name: str
@@ -19,15 +20,27 @@ class Quantity:
     is_error: bool = False
     larger_is_better: bool = False
     of_runs: bool = False
+    unit: str = ""
+
+    def label(self, unit=None):
+        """What stands at an axis."""
+        unit = self.unit if unit is None else unit
+        return f"{self.title} ({unit})" if unit else self.title
 
 
 QUANTITIES = {
     quantity.name: quantity
     for quantity in (
-        Quantity("error", "error", ("final_error", "largest_error"), True),
-        Quantity("largest_error", "largest error", ("largest_error",), True),
-        Quantity("energy_error", "energy error", ("energy_error",), True),
-        Quantity("seconds", "time (s)", ("seconds",)),
+        Quantity(
+            "error", "error", ("final_error", "largest_error"), True, unit="relative"
+        ),
+        Quantity(
+            "largest_error", "largest error", ("largest_error",), True, unit="relative"
+        ),
+        Quantity(
+            "energy_error", "energy error", ("energy_error",), True, unit="relative"
+        ),
+        Quantity("seconds", "time", ("seconds",), unit="s"),
         Quantity("steps", "steps", ("steps",), of_runs=True),
         Quantity("evaluations", "evaluations", ("evaluations",), of_runs=True),
         Quantity("dt", "step", ("dt",), larger_is_better=True, of_runs=True),
@@ -157,8 +170,8 @@ def _apart(ticks, columns, gap):
     return {**kept, **columns}
 
 
-def label(axis, name, scale, most=8):
-    """Limits, ticks and title of one axis of a plot; cuts are grey bands."""
+def label(axis, name, scale, most=8, unit=None):
+    """Limits, ticks and title of one axis of a plot, with its unit or another; cuts are grey bands."""
     axes = axis.axes
     ticks = _ticks(scale, most)
     if scale.cut is not None:
@@ -167,7 +180,7 @@ def label(axis, name, scale, most=8):
         ticks = _apart(ticks, columns, _gap(axis, scale))
     axis.set_ticks(list(ticks), list(ticks.values()))
     limits = (scale.low, scale.high)
-    axis.set_label_text(QUANTITIES[name].title)
+    axis.set_label_text(QUANTITIES[name].label(unit))
     if axis.axis_name == "x":
         axes.set_xlim(*limits)
     else:

@@ -22,8 +22,7 @@ def name_of(*parts):
 
 def words_of(pair):
     """`error on x, time on y` for captions."""
-    titles = (axes.QUANTITIES[name].title.removesuffix(" (s)") for name in pair)
-    x, y = titles
+    x, y = (axes.QUANTITIES[name].title for name in pair)
     return f"{x} on x, {y} on y, both logarithmic"
 
 
@@ -82,11 +81,13 @@ def positions(points, scales):
     return [[s.position(at[i]) for at in points] for i, s in enumerate(scales)]
 
 
-def draw_axes(plot, pair, scales, most=8):
-    """Limits, ticks and titles of both axes."""
-    label_x, label_y = zip((plot.xaxis, plot.yaxis), pair, scales)
-    axes.label(*label_x, most)
-    axes.label(*label_y, most)
+def draw_axes(plot, rows, pair, scales, most=8):
+    """Limits, ticks and titles of both axes of some settings."""
+    of_scenes = bool(rows) and all(row["subject"] == "scene" for row in rows)
+    for axis, name, scale in zip((plot.xaxis, plot.yaxis), pair, scales):
+        # A problem has its own unit of time.
+        unit = "s" if name == "dt" and of_scenes else None
+        axes.label(axis, name, scale, most, unit)
 
 
 def draw_failed(plot, rows, pair, scales, style):

@@ -27,12 +27,12 @@ _MOST_NAMES = 12
 
 def ranked(rows, pair):
     """The integrators, those that are on the front of a type most often first."""
-    names = list(dict.fromkeys(row.get("integrator") or "" for row in rows))
+    names = list(dict.fromkeys(map(settings.method, rows)))
     counts = dict.fromkeys(names, 0)
     for token in {row["type"] for row in rows}:
         mine = [row for row in rows if row["type"] == token]
         for row in settings.front(mine, pair):
-            counts[row.get("integrator") or ""] += 1
+            counts[settings.method(row)] += 1
     return sorted(names, key=lambda name: (-counts[name], name))
 
 
@@ -58,7 +58,7 @@ def _name_front(plot, best, pair, scales, most):
     """The integrators beside the front, each where it begins."""
     named, before, places = 0, None, []
     for row in best:
-        name = row.get("integrator") or ""
+        name = settings.method(row)
         at = settings.point(row, pair)
         x, y = (s.position(one) for s, one in zip(scales, at))
         near = any(
@@ -97,10 +97,10 @@ def _draw_overview(plot, measured, rows, pair, dashes):
     here = [token for token in tokens if any(row["type"] == token for row in rows)]
     floors = drawing.floors_of(measured, here)
     scales = drawing.scales_of(rows, pair, floors)
-    drawing.draw_axes(plot, pair, scales)
+    drawing.draw_axes(plot, rows, pair, scales)
     best = drawing.draw_front(plot, rows, pair, scales)
     drawing.draw_floors(plot, measured, here, pair, scales)
-    for (token, integrator), mine in settings.curves(rows).items():
+    for (token, method), mine in settings.curves(rows).items():
         colour, marker = type_style.line_style(token, tokens)
         style = {"color": colour, "marker": marker, "markeredgecolor": "white"}
         style.update(markeredgewidth=0.25, markersize=3.6, zorder=3)
@@ -109,7 +109,7 @@ def _draw_overview(plot, measured, rows, pair, dashes):
             place = here.index(token)
             style.update(markersize=3.2 + place, zorder=3 - 0.05 * place)
         if dashes:
-            style.update(linestyle=dashes[integrator or ""], linewidth=0.9)
+            style.update(linestyle=dashes[method], linewidth=0.9)
         else:
             # Thousands of points: pixels inside the vector files keep them small.
             style.update(linestyle="none", alpha=0.75, rasterized=True)
@@ -139,13 +139,14 @@ def _draw_panel(plot, measured, rows, pair, places):
     scales = drawing.scales_of(rows, pair, drawing.floors_of(measured, [token]))
     if scales is None:
         plot.text(0.5, 0.5, "every setting failed", ha="center", va="center", size=7)
-        plot.set(xticks=[], yticks=[], title=token)
+        plot.set(xticks=[], yticks=[])
+        plot.set_title(token, size=8, pad=3)
         return
-    drawing.draw_axes(plot, pair, scales, most=5)
+    drawing.draw_axes(plot, rows, pair, scales, most=5)
     drawing.draw_front(plot, rows, pair, scales)
     drawing.draw_floors(plot, measured, [token], pair, scales, names=False)
-    for (_, integrator), mine in settings.curves(rows).items():
-        style = style_of(places[integrator or ""])
+    for (_, method), mine in settings.curves(rows).items():
+        style = style_of(places[method])
         _draw_curves(plot, mine, pair, scales, style)
         drawing.draw_failed(plot, mine, pair, scales, style["color"])
     plot.set_title(token, size=8, pad=3)
@@ -218,9 +219,9 @@ def draw(measured):
         rows = measured.of_kind(kind, name)
         for pair, suffix, said in settings.drawn_pairs(measured, rows):
             figure, has_panels = _draw(measured, rows, pair)
-            integrators = {row.get("integrator") for row in rows} - {None}
-            each = " and integrator" if len(integrators) > 1 else ""
-            alone = f", integrator {min(integrators)}" if len(integrators) == 1 else ""
+            methods = {settings.method(row) for row in rows} - {""}
+            each = " and integrator" if len(methods) > 1 else ""
+            alone = f", integrator {min(methods)}" if len(methods) == 1 else ""
             how = _PANELS if has_panels else _ONE_PLOT % each
             within = ", of all types above, of each below" if has_panels else ""
             about = (kind.capitalize(), name + alone, drawing.words_of(pair))

@@ -107,7 +107,7 @@ def _draw(measured, rows, pair):
     if scales is None:
         return None
     figure, plot = pyplot.subplots(figsize=(_WIDTH, 4.2))
-    drawing.draw_axes(plot, pair, scales)
+    drawing.draw_axes(plot, rows, pair, scales)
     drawing.draw_floors(plot, measured, here, pair, scales)
     _draw_lines(plot, rows, pair, scales)
     for token in here:

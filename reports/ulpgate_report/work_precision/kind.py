@@ -1,9 +1,11 @@
 """The report of error against run time: its tables, figures, sections of the page and what goes to the terminal."""
 from ulpgate_report.page import page_views
+from ulpgate_report.values import numbers
 from ulpgate_report.work_precision import (
     axes,
     drawing,
     figure_curves,
+    figure_fits,
     figure_subjects,
     settings,
     tables,
@@ -16,21 +18,11 @@ TABLES = (
     (tables.work_precision_fits, ("tex", "md", "csv")),
     (tables.work_precision_records, ("md", "csv")),
 )
-FIGURES = (figure_curves.draw, figure_subjects.draw)
+FIGURES = (figure_curves.draw, figure_subjects.draw, figure_fits.draw)
 FAMILIES = (drawing.FAMILY,)
 # Of the list on the page.
 MOST_ROWS = 5000
 _TITLE = "Error against run time"
-# Section, title, kinds of subjects, table.
-_PARTS = (
-    ("work-precision", _TITLE, figure_curves.KINDS, tables.work_precision_front),
-    (
-        "work-precision-types",
-        f"{_TITLE}: functions and kernels",
-        settings.OF_SUBJECTS,
-        tables.work_precision_types,
-    ),
-)
 
 
 def of(run):
@@ -97,6 +89,44 @@ def _figures(drawn, kinds):
     return [block for block in found if block["kind"] == "figure"]
 
 
+def _anchor(place):
+    """The anchor of a row of the table of fronts."""
+    return f"work-precision-{place}"
+
+
+def _hover(found):
+    _, row = found
+    lines = [
+        f"{row['name']}, {row['type']}: {settings.method(row)}, {row['steps']:,} steps",
+        f"{numbers.short_real(row.get('seconds'))} s, {row['evaluations']:,} evaluations",
+    ]
+    return "\n".join(lines)
+
+
+def _fronts(measured):
+    """Blocks: the least errors, each a link to its setting in the table of fronts, and that table."""
+    table = page_views.table_view(tables.work_precision_front(measured))
+    if not table["rows"]:
+        return []
+    page_views.anchor_rows(table, map(_anchor, range(len(table["rows"]))))
+    least = tables.least_errors(measured).values()
+    matrix = page_views.heat_view(
+        tables.work_precision_matrix(measured),
+        page_views.cells_by_type(least, measured.type_tokens),
+        lambda found: None,
+        _hover,
+        None,
+        lambda found: _anchor(found[0]),
+    )
+    return [page_views.table(matrix), page_views.table(table)]
+
+
+def _types(measured):
+    """A block: functions and kernels by type."""
+    table = page_views.table_view(tables.work_precision_types(measured))
+    return [page_views.table(table)] if table["rows"] else []
+
+
 def _all_settings(measured):
     """The list of all, or where a page with it would be slow a sentence."""
     table = tables.work_precision_records(measured)
@@ -109,21 +139,24 @@ def _all_settings(measured):
 def sections(measured, drawn):
     """The sections of the page."""
     found = []
-    for name, title, kinds, make in _PARTS:
+    # Section, title, kinds of subjects, tables.
+    of_subjects = (f"{_TITLE}: functions and kernels", settings.OF_SUBJECTS, _types)
+    for name, title, kinds, make in (
+        ("work-precision", _TITLE, figure_curves.KINDS, _fronts),
+        ("work-precision-types", *of_subjects),
+    ):
         if not measured.subjects(kinds):
             continue
-        blocks = _figures(drawn, kinds)
-        table = make(measured)
-        if table.rows:
-            blocks.append(page_views.table(page_views.table_view(table)))
+        blocks = _figures(drawn, kinds) + make(measured)
         none_text = "Every setting failed, or none has both an error and a cost."
         blocks = blocks or [page_views.note(none_text)]
         found.append(page_views.section(name, title, *blocks))
     fits = tables.work_precision_fits(measured)
     if fits.rows:
-        block = page_views.table(page_views.table_view(fits))
-        title = f"{_TITLE}: laws of the energy error"
-        found.append(page_views.section("work-precision-fits", title, block))
+        blocks = _figures(drawn, (figure_fits.PART,))
+        blocks.append(page_views.table(page_views.table_view(fits)))
+        title = f"{_TITLE}: laws of the error"
+        found.append(page_views.section("work-precision-fits", title, *blocks))
     blocks = [_all_settings(measured)]
     blocks += [page_views.note(said) for said in notes(measured, drawn)]
     title = f"{_TITLE}: all settings"

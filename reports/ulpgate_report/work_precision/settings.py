@@ -2,12 +2,14 @@
 import math
 from dataclasses import dataclass
 
-from ulpgate_report.values import numbers, type_order
+from ulpgate_report.values import numbers, time_step, type_order
 from ulpgate_report.work_precision import axes
 
 KINDS = ("function", "kernel", "trajectory", "scene")
 # Of these a line of the records is a subject by itself; of the others one setting out of many.
 OF_SUBJECTS = ("function", "kernel")
+# So the step of a setting begins whose steps are a plan, made to a tolerance.
+PLAN = "plan:"
 _KNOWN_BITS = {"float": 24, "double": 53, "long_double": 64, "float128": 113}
 _SMALLEST_DOUBLE_BITS = 1074
 # Types share the error of a step in all but its last digits: a dearer type that gains no more than this is no better.
@@ -48,16 +50,29 @@ class Measured:
         return 2.0**-bits if bits and bits < _SMALLEST_DOUBLE_BITS else None
 
 
+def tolerance(row):
+    """The tolerance of the plan that a setting's steps follow, `plan:1e-6`; None where its steps are equal."""
+    text = row.get("dt_text") or ""
+    return time_step.seconds(text.removeprefix(PLAN)) if text.startswith(PLAN) else None
+
+
+def method(row):
+    """What is one curve over its steps: the integrator, with planned steps another one than with equal ones."""
+    name = row.get("integrator") or ""
+    is_planned = row.get("planned") or tolerance(row) is not None
+    return f"{name}, planned" if is_planned else name
+
+
 def _place(row, tokens):
     steps = row.get("steps")
-    dt = row.get("dt")
+    size = tolerance(row) or row.get("dt")
     return (
         KINDS.index(row["subject"]),
         row["name"],
         tokens.index(row["type"]),
-        row.get("integrator") or "",
-        # From cheap to expensive: the largest step first, then by their number.
-        -dt if dt is not None else 0.0,
+        method(row),
+        # From cheap to expensive: the largest step or tolerance first, then by the number of steps.
+        -size if size is not None else 0.0,
         steps if steps is not None else 0,
     )
 
@@ -83,7 +98,7 @@ def fit_key(fit):
     return (
         KINDS.index(fit["subject"]),
         fit["name"],
-        fit.get("integrator") or "",
+        method(fit),
         place,
         token,
         fit["error"],
@@ -111,10 +126,10 @@ def point(row, pair):
 
 
 def curves(rows):
-    """{(type, integrator): its settings}, in display order."""
+    """{(type, method): its settings}, in display order."""
     found = {}
     for row in rows:
-        found.setdefault((row["type"], row.get("integrator")), []).append(row)
+        found.setdefault((row["type"], method(row)), []).append(row)
     return found
 
 
@@ -134,7 +149,8 @@ def segments(rows, pair):
 def front(rows, pair):
     """The settings that no other betters in both quantities (Pareto), by the first of them; of equal ones the first.
 
-    A dearer setting is on it where it lowers the error, of the two the first quantity that is one, by more than GAIN.
+    A dearer setting is on it where it lowers the error, of the two the first quantity that is one, by more than GAIN;
+    one with an error of 1 and more never is.
     """
     gain = next((i for i, name in enumerate(pair) if axes.QUANTITIES[name].is_error), 0)
     cheaper_is_less = not axes.QUANTITIES[pair[1 - gain]].larger_is_better
@@ -142,7 +158,9 @@ def front(rows, pair):
     found = []
     for index, row in enumerate(rows):
         at = point(row, pair)
-        if at is not None:
+        if at is not None and not (
+            axes.QUANTITIES[pair[gain]].is_error and at[gain] >= 1
+        ):
             cost, error = at[1 - gain], at[gain]
             cost = cost if cheaper_is_less else 1 / cost
             found.append((cost, error if better_is_less else 1 / error, index))

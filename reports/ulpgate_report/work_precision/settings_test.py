@@ -41,6 +41,32 @@ def test_curves_break_where_a_setting_failed():
     ]
 
 
+def test_planned_steps_are_curves_of_their_own():
+    def planned(text, steps):
+        changes = {"dt_text": text, "planned": True}
+        return {**sample.timed(1e-6, 1.0, steps=steps), **changes}
+
+    rows = [planned("plan:1e-9", 90), sample.timed(1e-3, 1.0), planned("plan:1e-6", 60)]
+    rows = measured_of(rows).rows
+    assert [settings.tolerance(row) for row in rows] == [None, 1e-6, 1e-9]
+    assert list(settings.curves(rows)) == [
+        ("double", "leapfrog"),
+        ("double", "leapfrog, planned"),
+    ]
+    fits = [
+        sample.fit("kepler", "leapfrog", "double", **how)
+        for how in ({"planned": True}, {})
+    ]
+    found = work_precision_records.WorkPrecision((), tuple(fits), {}, 0)
+    ordered = settings.made_of(found).fits
+    assert [settings.method(fit) for fit in ordered] == [
+        "leapfrog",
+        "leapfrog, planned",
+    ]
+    scene = sample.of_run("scene", "deposition", "double", "leapfrog", 10, 1e-3)
+    assert settings.tolerance(scene) is None, "a scene's step is text too"
+
+
 @pytest.mark.parametrize(
     "points, expected, why",
     [
@@ -52,6 +78,7 @@ def test_curves_break_where_a_setting_failed():
         ([(1e-3, 1.0), (0.999e-3, 9.0)], [0], "a gain of a thousandth is none"),
         ([(1e-3, 1.0), (0, 9.0)], [1, 0], "exact"),
         ([("inf", 0.5), (1e-3, 1.0), ("nan", 0.1)], [1], "failed ones never"),
+        ([(1.0, 0.5), (0.99, 1.0)], [1], "an error of 1 says nothing"),
     ],
 )
 def test_front(points, expected, why):

@@ -1,31 +1,44 @@
 """The tables of error against run time as plain data."""
-from ulpgate_report.tables.table import Column, Table
+from ulpgate_report.tables.table import Column, Table, columns_of
 from ulpgate_report.values import numbers
-from ulpgate_report.work_precision import axes, figure_subjects, settings
-
-_SUBJECT = Column("subject", "of", "text")
-_NAME = Column("name", "name", "code")
-_TYPE = Column("type", "type", "code")
-_INTEGRATOR = Column("integrator", "integrator", "code")
-_DT = Column("dt", "step", "real")
-_END = Column("end", "end", "text")
-_STEPS = Column("steps", "steps", "count")
-_EVALUATIONS = Column("evaluations", "evaluations", "count")
-_ERRORS = (
-    Column("final_error", "final error", "real"),
-    Column("largest_error", "largest error", "real"),
-    Column("energy_error", "energy error", "real"),
-    Column("t_s", "t_s (s)", "real"),
-)
-_SECONDS = (
-    Column("seconds", "time (s)", "real"),
-    Column("median_s", "median (s)", "real"),
-    Column("spread_s", "spread (s)", "real"),
+from ulpgate_report.work_precision import (
+    axes,
+    figure_subjects,
+    reproducer,
+    settings,
 )
 
+_SUBJECT = columns_of("text", subject="of")
+_NAME_TYPE = columns_of("code", name="name", type="type")
+_ABOUT = (*_SUBJECT, *_NAME_TYPE, *columns_of("code", integrator="integrator"))
+_END = columns_of("text", end="end")
+_STEP = columns_of("real", dt="step")
+_TOLERANCE = columns_of("real", tolerance="tolerance")
+_COUNTS = columns_of("count", steps="steps", evaluations="evaluations")
+_ERRORS = columns_of(
+    "real",
+    final_error="final error",
+    largest_error="largest error",
+    energy_error="energy error",
+    t_s="t_s (s)",
+)
+_SECONDS = columns_of("real", seconds="time (s)")
+_COMMAND = columns_of("command", command="command")
 
-def _numbers(row, columns):
-    return tuple(numbers.signed(row.get(column.name)) for column in columns)
+
+def _values(row, told):
+    """The fields of a setting, numbers as such; of planned steps the tolerance, and its command."""
+    made = {
+        "integrator": lambda one: settings.method(one) or None,
+        "tolerance": settings.tolerance,
+        "command": reproducer.command,
+    }
+    found = []
+    for column in told:
+        make = made.get(column.name)
+        value = make(row) if make else row.get(column.name)
+        found.append(numbers.signed(value) if column.kind == "real" else value)
+    return tuple(found)
 
 
 def front_rows(measured):
@@ -45,21 +58,48 @@ def front_rows(measured):
 
 def work_precision_front(measured):
     """Of each problem or scene and type the settings that no other betters in error and time."""
-    columns = (_SUBJECT, _NAME, _TYPE, _INTEGRATOR, _DT, _STEPS, _EVALUATIONS)
-    columns += (*_ERRORS, _SECONDS[0], Column("best", "of all types", "text"))
+    told = (*_ABOUT, *_STEP, *_COUNTS, *_ERRORS, *_SECONDS)
     rows = [
-        (
-            *(row.get(c.name) for c in columns[:7]),
-            *_numbers(row, (*_ERRORS, _SECONDS[0])),
-            "yes" if is_best else "no",
-        )
+        (*_values(row, told), "yes" if is_best else "no", *_values(row, _COMMAND))
         for row, is_best in front_rows(measured)
     ]
+    told += (*columns_of("text", best="of all types"), *_COMMAND)
     caption = (
         "What an error costs: of each problem or scene and type the settings that no other of this type betters in error "
-        "and time (Pareto front), the cheapest first, and whether they are on the front of all types too."
+        "and time (Pareto front), the cheapest first, and whether they are on the front of all types too. Of planned "
+        "steps the step is their mean."
     )
-    return Table("work_precision_front", caption, columns, tuple(rows))
+    return Table("work_precision_front", caption, told, tuple(rows))
+
+
+def least_errors(measured):
+    """{(subject, name): {type: (place in the table of fronts, setting)}}: the last of each front has the least error."""
+    found = {}
+    for place, (row, _) in enumerate(front_rows(measured)):
+        of_type = found.setdefault((row["subject"], row["name"]), {})
+        of_type[row["type"]] = (place, row)
+    return found
+
+
+def work_precision_matrix(measured):
+    """The least error of each problem or scene in each type, for the page."""
+    tokens = measured.type_tokens
+    rows = []
+    for (_, name), of_type in least_errors(measured).items():
+        best = (of_type[t][1] if t in of_type else None for t in tokens)
+        rows.append((name, *(row and axes.value(row, "error") for row in best)))
+    told = columns_of("code", name="name") + tuple(
+        Column(token, token, "real") for token in tokens
+    )
+    caption = "The least error that was reached in each type. A cell leads to its setting and the command that measures it again."
+    return Table("work_precision_matrix", caption, told, tuple(rows))
+
+
+def _worst(rows):
+    """(largest error, its setting) of some settings that did not fail; (None, None) of none."""
+    found = [(axes.value(row, "error"), row) for row in rows]
+    found = [one for one in found if one[0] is not None]
+    return max(found, key=lambda one: one[0], default=(None, None))
 
 
 def work_precision_types(measured):
@@ -73,101 +113,83 @@ def work_precision_types(measured):
             mine = [row for row in all_rows if row["type"] == token]
             if not mine:
                 continue
-            errors = [axes.value(row, "error") for row in mine]
-            largest = max((e for e in errors if e is not None), default=None)
+            failed = sum(map(settings.has_failed, mine))
+            largest, worst = _worst(mine)
             error, seconds = middle.get(token, (None, None))
             ratio = seconds / double if seconds and double else None
-            rows.append(
-                (
-                    kind,
-                    token,
-                    len(mine),
-                    sum(settings.has_failed(row) for row in mine),
-                    error,
-                    largest,
-                    seconds,
-                    ratio,
-                )
-            )
-    columns = (
-        _SUBJECT,
-        _TYPE,
-        Column("count", "measured", "count"),
-        Column("failed", "failed", "count"),
-        Column("median_error", "median error", "real"),
-        Column("largest_error", "largest error", "real"),
-        Column("median_seconds", "median time (s)", "real"),
-        Column("slowdown", "against double", "real"),
+            of_worst = (worst and worst["name"], worst and reproducer.command(worst))
+            middles = (error, largest, seconds, ratio)
+            rows.append((kind, token, len(mine), failed, *middles, *of_worst))
+    told = _SUBJECT + columns_of("code", type="type")
+    told += columns_of("count", count="measured", failed="failed")
+    told += columns_of(
+        "real",
+        median_error="median error",
+        largest_error="largest error",
+        median_seconds="median time (s)",
+        slowdown="against double",
     )
+    told += columns_of("code", worst="largest error of") + _COMMAND
     caption = (
         "Functions and kernels by type: the median and the largest of their errors, the median of their times, and that "
-        "against double."
+        "against double; which has the largest error, and the command that measures it again."
     )
-    return Table("work_precision_types", caption, columns, tuple(rows))
+    return Table("work_precision_types", caption, told, tuple(rows))
 
 
-_FITTED = (
-    Column("constant", "C", "real"),
-    Column("order", "p", "real"),
-    Column("walk", "B", "real"),
-    Column("drift", "D", "real"),
-    Column("residual", "residual", "real"),
-    Column("best_dt", "best step", "real"),
-    Column("best_error", "its error", "real"),
-    Column("crossing_dt", "crossing", "real"),
+_FITTED = columns_of(
+    "real",
+    constant="C",
+    order="p",
+    walk="B",
+    drift="D",
+    residual="residual",
+    best_dt="best step",
+    best_error="its error",
+    crossing_dt="crossing",
 )
 
 
 def work_precision_fits(measured):
     """The law of the errors of each integrator and type, and the best step that follows."""
-    told = (_SUBJECT, _NAME, _INTEGRATOR, _TYPE, Column("error", "error", "text"))
-    columns = (*told, *_FITTED, Column("bad", "holds", "text"))
+    about = _SUBJECT + columns_of(
+        "code", name="name", integrator="integrator", type="type"
+    )
     rows = [
         (
-            *(fit.get(c.name) for c in told[:4]),
+            *_values(fit, about),
             fit["error"].removesuffix("_error"),
-            *_numbers(fit, _FITTED),
+            *_values(fit, _FITTED),
             "no" if fit.get("bad") else "yes",
         )
         for fit in measured.fits
     ]
+    told = (*about, *columns_of("text", error="error"), *_FITTED)
+    told += columns_of("text", bad="holds")
     caption = (
         "Errors fitted as max(C dt^p, B sqrt(n) u, D n u) over n steps with unit roundoff u: time-stepping, unbiased and "
         "biased rounding. Residual: in decades, root mean square; where the law does not hold, the error is of another "
         "form. The best step is that of the least error; crossing: where rounding takes over."
     )
-    return Table("work_precision_fits", caption, columns, tuple(rows))
+    return Table("work_precision_fits", caption, told, tuple(rows))
 
 
 def work_precision_records(measured):
     """Every setting, failed ones with the reason."""
-    columns = (_SUBJECT, _NAME, _TYPE, _INTEGRATOR, _END, _DT, _STEPS, _EVALUATIONS)
-    measures = (
-        *_ERRORS,
-        Column("correct_digits", "correct digits", "real"),
-        Column("reference_error", "error of the truth", "real"),
-        *_SECONDS,
-        Column("noise_floor", "noise floor", "real"),
+    told = (*_ABOUT, *_END, *_TOLERANCE, *_STEP, *_COUNTS, *_ERRORS)
+    told += columns_of("count", instants="instants")
+    told += columns_of(
+        "real", correct_digits="correct digits", reference_error="error of the truth"
     )
-    rows = [
-        (
-            *(row.get(c.name) for c in columns),
-            *_numbers(row, measures),
-            row.get("repeats"),
-            row.get("regime"),
-            row.get("failure") or None,
-            row.get("why") or None,
-        )
-        for row in measured.rows
-    ]
-    columns += (*measures, Column("repeats", "repeats", "count"))
-    columns += (
-        Column("regime", "limited by", "text"),
-        Column("failure", "failure", "text"),
-        Column("why", "why", "prose"),
-    )
+    told += _SECONDS + columns_of("real", median_s="median (s)", spread_s="spread (s)")
+    told += columns_of("real", noise_floor="noise floor")
+    told += columns_of("count", repeats="repeats")
+    told += columns_of("text", regime="limited by", failure="failure")
+    told += columns_of("prose", why="why") + _COMMAND
+    rows = [_values(row, told) for row in measured.rows]
     caption = (
-        "Every setting: errors against the truth, largest error of the energy, time until which a type stays true (t_s), "
-        "the smallest, the median and the spread of its times, their noise floor as a share, and what limits the error."
+        "Every setting: errors against the truth, at the end and the largest of all instants that are compared, largest error "
+        "of the energy, time until which a type stays true (t_s), the smallest, the median and the spread of its times, "
+        "their noise floor as a share, and what limits the error."
     )
-    return Table("work_precision_records", caption, columns, tuple(rows))
+    return Table("work_precision_records", caption, told, tuple(rows))

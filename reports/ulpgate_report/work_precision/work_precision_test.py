@@ -1,5 +1,6 @@
 """Tests of error against run time: records, what is refused, tables, the whole report, hard records."""
 import json
+import re
 import shutil
 
 import pytest
@@ -8,6 +9,7 @@ from ulpgate_report.app import cli
 from ulpgate_report.records import reading, records, suite
 from ulpgate_report.testing import sample_work_precision as sample
 from ulpgate_report.testing.changes import edit_line, with_fields, without
+from ulpgate_report.testing.page_check import References
 from ulpgate_report.testing.table_check import compile_tables, csv_rows, needs_latex
 from ulpgate_report.work_precision import kind, tables
 
@@ -76,6 +78,13 @@ def other_line(name):
 @pytest.mark.parametrize(
     "name, change, named, why",
     [
+        (
+            "work_precision.jsonl",
+            with_fields(planned=False),
+            LINE,
+            "said of plans alone",
+        ),
+        ("work_precision.jsonl", with_fields(instants=0), LINE, "the end is one"),
         ("work_precision.jsonl", lambda s: s[:40], LINE, "truncated"),
         ("work_precision.jsonl", without("final_error"), LINE, "field missing"),
         ("work_precision.jsonl", with_fields(subject="poem"), LINE, "no kind"),
@@ -120,10 +129,19 @@ def test_whole_report(run_directory, tmp_path, capsys):
         f"{base}_trajectory_kepler",
         f"{base}_scene_deposition",
         f"{base}_function",
+        f"{base}_fits_trajectory_kepler",
     }
     assert "report:" not in capsys.readouterr().err
     page = (out / "index.html").read_text("utf-8")
-    assert page.count("<figure") == 3 and 'id="work_precision_fits"' in page
+    found = References()
+    found.feed(page)
+    links = {value[1:] for _, value in found.fetched if value.startswith("#")}
+    assert links <= set(found.ids)
+    assert (
+        sum(re.fullmatch(r"work-precision-\d+", link) is not None for link in links)
+        == 6
+    )
+    assert page.count("<figure") == 4 and 'id="work_precision_fits"' in page
     for make, formats in kind.TABLES:
         for form in formats:
             assert (out / f"{make.__name__}.{form}").stat().st_size > 0
@@ -135,6 +153,7 @@ def test_whole_report(run_directory, tmp_path, capsys):
     assert asked == {
         f"{base}_trajectory_kepler_dt_energy_error",
         f"{base}_scene_deposition_dt_energy_error",
+        f"{base}_fits_trajectory_kepler",
     }
     said = capsys.readouterr().err
     assert "functions: no setting with dt and energy_error" in said
@@ -144,6 +163,29 @@ def test_axes_that_are_none_are_refused(run_directory, tmp_path, capsys):
     with pytest.raises(SystemExit) as stop:
         cli.main([str(run_directory), "--out", str(tmp_path), "--axes", "error,price"])
     assert stop.value.code == 2 and "'error,price'" in capsys.readouterr().err
+
+
+def test_planned_steps_are_read_beside_equal_ones(tmp_path):
+    rows = [sample.of_run("trajectory", "kepler", "double", "radau5", 64, 1e-9)]
+    plan = {
+        "planned": True,
+        "dt_text": "plan:1e-6",
+        "largest_error": 2e-9,
+        "instants": 64,
+    }
+    rows.append({**rows[0], **plan})
+    times = [sample.timing(row, 1.0) for row in rows]
+    times[1]["planned"] = True
+    fits = [
+        sample.fit("kepler", "radau5", "double", **how)
+        for how in ({}, {"planned": True})
+    ]
+    found = records.load(sample.write(tmp_path, rows, times, fits))
+    assert len(found.work_precision.rows) == len(found.work_precision.fits) == 2
+    every = csv_rows(tables.work_precision_records(kind.of(found)))
+    assert [row["integrator"] for row in every] == ["radau5", "radau5, planned"]
+    assert (every[1]["tolerance"], every[1]["instants"]) == ("1e-06", "64")
+    assert every[1]["command"].endswith("--dt plan:1e-6 --until 10")
 
 
 ONE = sample.of_run("trajectory", "kepler", "double", "leapfrog", 10, 1e-9)
@@ -193,7 +235,17 @@ def test_tables(run_directory):
     errors = [float(row["final_error"]) for row in kepler]
     assert errors == sorted(errors, reverse=True), "the cheapest first"
     assert {row["best"] for row in rows} == {"yes", "no"}
+    for (_, name), of_type in tables.least_errors(measured).items():
+        for token, (place, row) in of_type.items():
+            line = rows[place]
+            assert (line["name"], line["type"]) == (name, token)
+            mine = [r for r in rows if (r["name"], r["type"]) == (name, token)]
+            assert line["final_error"] == min(
+                (r["final_error"] for r in mine), key=float
+            )
+            assert line["command"].endswith("--until 10")
     types = csv_rows(tables.work_precision_types(measured))
+    assert types[1]["worst"] == "sin" and types[1]["command"].endswith("double")
     assert [row["type"] for row in types] == list(TOKENS)
     assert types[1]["slowdown"] == "1.0" and float(types[2]["slowdown"]) > 10
     fits = csv_rows(tables.work_precision_fits(measured))

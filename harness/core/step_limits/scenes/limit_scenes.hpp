@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/core/step_limits/scenes/contact_network.hpp"
+#include "harness/core/contact_network/contact_network.hpp"
 #include "kernels/scenes/reader/scene.hpp"
 
 namespace ulpgate {

@@ -83,7 +83,12 @@ StressRow rule_row(std::string_view token, const LimitScene& s, const std::strin
   StressRow row;
   const auto looked = look_at(token, s);
   const double limit = critical_mode(looked->network).step;
-  const double step = looked->engine->critical_step(rule);
+  const dem::CriticalStep critical = looked->engine->critical_step(rule);
+  if (!critical.refusal.empty()) {
+    row.why = critical.refusal;
+    return row;
+  }
+  const double step = critical.step_s;
   row.figures["theory"] = limit;
   row.figures["rule"] = step;
   row.figures["rule_over_limit"] = step / limit;
@@ -128,17 +133,19 @@ StressCase rule_case(const std::string& rule, const MakeScene& make) {
   c.form = make().name;
   c.title = "The critical step '" + rule + "' of the engine against the largest stable step";
   c.cost = 0.05;
-  if (rule == "rayleigh" && c.form != "hertz_on_wall") {
+  const bool waves_say_nothing = rule != "stiffness" && c.form == "boxed";
+  if (rule == "rayleigh" && c.form != "hertz_on_wall" && !waves_say_nothing) {
     c.known.push_back(
         {"all", StressVerdict::wrong_outcome,
-         "a property of the rule: it is the time of a surface wave over a body, and linear contacts of "
+         "a property of the method: it is the time of a surface wave over a body, and linear contacts of "
          "kn = E r, let alone stiffer ones, vibrate faster"});
   }
-  if (rule == "p_wave" && c.form == "boxed") {
+  if (waves_say_nothing) {
     c.known.push_back(
-        {"all", StressVerdict::wrong_outcome,
-         "a property of the rule: it reads Young's modulus, and the visco-elastic law takes its "
-         "stiffness from the time of a collision"});
+        {"all", StressVerdict::refused,
+         "waves know Young's modulus, and the visco-elastic law takes its stiffness from the time "
+         "of a collision",
+         "makes its springs from collision_time"});
   }
   c.run = [make, rule](std::string_view token, const ode::StopFlag&) {
     return row_or_refusal(token, [&] { return rule_row(token, make(), rule); });

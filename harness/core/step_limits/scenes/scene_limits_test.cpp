@@ -77,6 +77,10 @@ TEST(SceneLimits, JudgeTheRules) {
   for (const char* rule : {"p_wave_rule", "rayleigh_rule", "stiffness_rule"}) {
     for (const StressCase& c : named(rule)) {
       const StressRow row = *c.run("double", {});
+      if (row.verdict == StressVerdict::refused) {
+        EXPECT_TRUE(standing_of(c, "double", row).as_known) << c.key() << ": " << row.why;
+        continue;
+      }
       const double over = row.figures.at("rule_over_limit");
       EXPECT_EQ(row.verdict == StressVerdict::wrong_outcome, over > 1) << c.key();
       EXPECT_LE(row.figures.at("block_bound_over_limit"), 1 + 1e-9) << c.key();

@@ -1,0 +1,64 @@
+// What the gate prints.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/app/gate_output/output_text.hpp"
+#include "harness/app/gate_output/outputs.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// All findings: failing ones, then notes.
+std::vector<PlacedFinding> with_notes(const std::vector<GateResult>& results) {
+  std::vector<PlacedFinding> all = worst_first(results);
+  for (const auto& r : results) {
+    for (const auto& f : r.findings)
+      if (f.kind == FindingKind::could_lower) all.push_back({&r, &f});
+  }
+  return all;
+}
+
+Json number_or_null(const std::optional<double>& x) {
+  return x ? Json(*x) : Json(nullptr);
+}
+
+}  // namespace
+
+std::string text_report(const std::vector<GateResult>& results) {
+  std::string text;
+  for (const auto& [result, f] : with_notes(results)) {
+    const std::string of = results.size() > 1 ? fmt::format(" [{}]", result->records_directory) : "";
+    text += fmt::format("{:<12} {} {}: {}{}\n", label_of(f->kind), f->row, f->type, f->message, of);
+    if (f->kind == FindingKind::could_lower) continue;
+    for (const auto& [name, value] : details_of(*f))
+      text += fmt::format("{:<12}   {}: {}\n", "", name, value);
+  }
+  return text;
+}
+
+std::string json_report(const std::vector<GateResult>& results) {
+  Json rows = Json::array();
+  for (const auto& [result, f] : with_notes(results)) {
+    rows.push_back({{"kind", label_of(f->kind)},
+                    {"function", f->row},
+                    {"type", f->type},
+                    {"message", f->message},
+                    {"args", f->at},
+                    {"reproduce", f->reproduce},
+                    {"of", to_string(f->of)},
+                    {"stratum", f->stratum},
+                    {"what", f->what},
+                    {"measured", number_or_null(f->measured)},
+                    {"budget", number_or_null(f->budget)},
+                    {"got", f->got},
+                    {"wanted", f->wanted},
+                    {"records", result->records_directory}});
+  }
+  return rows.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace ulpgate::app
