@@ -204,10 +204,10 @@ class SceneAdvice final : public AdviceCase {
 
   [[nodiscard]] std::string error_words() const override {
     return fmt::format(
-        "largest position error up to t = {} s against the converged reference, relative to the scene's size "
-        "of "
-        "{:.3g} m",
-        ladder_.end, size_m_);
+        "largest position error up to t = {} s{} against the converged reference, relative to the scene's "
+        "size "
+        "of {:.3g} m",
+        ladder_.end, shorter_words(), size_m_);
   }
   [[nodiscard]] std::string kink_words(const std::string& integrator) const override {
     if (smooth_) {
@@ -246,6 +246,11 @@ class SceneAdvice final : public AdviceCase {
   }
 
  private:
+  // That no --until was given, and the scene goes on.
+  [[nodiscard]] std::string shorter_words() const {
+    if (ladder_.own_end_s <= ladder_.until_s * (1 + 1e-9)) return "";
+    return fmt::format(" (the scene's own end is {:.6g} s: --until goes further)", ladder_.own_end_s);
+  }
   [[nodiscard]] std::unique_ptr<dem::DemEngine> rough_engine() const {
     return engine_of(rough_type(), dem::Level::own, make_job(ladder_.scene));
   }

@@ -94,7 +94,8 @@ SceneLadder scene_ladder(const std::string& name, const std::vector<std::string>
   SceneRequest whole = base;
   if (!until.empty()) whole.until = until;
   const SceneJob job = make_job(whole);
-  const double until_s = until.empty() ? default_until_s(job) : dt_of(job) * static_cast<double>(job.steps);
+  ladder.own_end_s = dt_of(job) * static_cast<double>(job.steps);
+  const double until_s = until.empty() ? default_until_s(job) : ladder.own_end_s;
   const auto rungs = dt.empty() ? halved_rungs(base, job.loaded.scene.dt, until_s, coarser, finer)
                                 : rungs_of_list(base, dt, until_s);
   std::vector<std::uint64_t> steps;

@@ -81,7 +81,8 @@ struct SceneLadder {
   SceneRequest scene;            // at its coarsest step, steps given
   std::vector<SceneRung> rungs;  // from the coarsest on
   double until_s = 0;
-  std::string end;  // until_s as text
+  double own_end_s = 0;  // of the scene, or until_s where that was asked for
+  std::string end;       // until_s as text
   SceneInstants instants;
 };
 // `dt` is a list, or empty: the scene's own step times 2^coarser, and so on down to 2^-finer.  `until` may be

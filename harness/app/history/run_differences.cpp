@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t least_processes = 3;
 constexpr double least_change = 0.0488;  // 5 %
-constexpr double most_p_value = 0.01;
+constexpr double most_p_value = 0.05;
 
 void hold_p_values_together(std::vector<TimeDifference>& times) {
   std::ranges::sort(times, {}, &TimeDifference::p_value);

@@ -22,7 +22,7 @@ struct TimedRow {
   std::vector<double> baseline_s;  // as many, or none
   std::size_t processes = 1;       // each with an equal part of the repeats
 
-  // Logarithms of the repeats over the fixed work beside each, where there is any.
+  // Logarithms of the repeats over the typical time of the fixed work in their process, where there is any.
   [[nodiscard]] std::vector<double> relative() const;
   // typical_time of those of each process: what differs between them no repeat within one shows.
   [[nodiscard]] std::vector<double> process_levels() const;

@@ -91,7 +91,7 @@ def slowed(directory, name, factor):
 
 
 def test_a_slower_function_is_named_and_no_other(tmp_path):
-    repeats = ("repeats", "--timing-processes", "4", "--timing-rounds", "5")
+    repeats = ("repeats", "--timing-processes", "5", "--timing-rounds", "7")
     first = math(tmp_path / "first", "--functions", "exp,sin,log,atan", timing=repeats)
     for factor, word, code in (
         (3, "slower", 1),

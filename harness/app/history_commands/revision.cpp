@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "harness/app/shell/child_process.hpp"
+#include "harness/app/machine/child_process.hpp"
 #include "harness/app/shell/failure.hpp"
 
 namespace ulpgate::app {

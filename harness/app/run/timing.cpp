@@ -7,8 +7,8 @@
 #include <chrono>
 #include <sstream>
 
+#include "harness/app/machine/child_process.hpp"
 #include "harness/app/run/baseline.hpp"
-#include "harness/app/shell/child_process.hpp"
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/progress.hpp"
 #include "harness/app/store/records.hpp"

@@ -141,8 +141,7 @@ StressFindings judge_stress_job(const StressJob& job) {
         "{} {}: {}, known is {}{}: error {}, condition {}{}{}\n  {}", m.stress_case().key(), m.token(),
         to_string(row.verdict), standing.expected,
         standing.says.empty() ? "" : fmt::format(" with \"{}\"", standing.says), number_text(row.error),
-        number_text(row.condition),
-        row.first_wrong.empty() ? "" : ", first wrong " + row.first_wrong,
+        number_text(row.condition), row.first_wrong.empty() ? "" : ", first wrong " + row.first_wrong,
         row.why.empty() ? "" : ": " + row.why, reproducer_of(m)));
   }
   return findings;

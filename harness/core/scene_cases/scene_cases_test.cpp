@@ -118,12 +118,11 @@ TEST(SceneText, SaysExpressionsTriplesAndWordsAsTheReaderWantsThem) {
       scene_text::section("[[sphere]]",
                           {{"position", "0, 1e-3+sqrt(2), -(1+2)"}, {"radius", "3/2"}, {"fixed", "true"}}),
       "[[sphere]]\nposition = [\"0\", \"1e-3+sqrt(2)\", \"-(1+2)\"]\nradius = \"3/2\"\nfixed = true\n");
-  const scenes::Scene scene = scene_of(pair_of_balls + scene_text::wall("0.1") +
-                                       scene_text::section("[[bond]]", {{"bodies", "[0, 1]"}}));
+  EXPECT_EQ(scene_text::section("[[bond]]", {{"bodies", "[0, 1]"}}), "[[bond]]\nbodies = [0, 1]\n");
+  const scenes::Scene scene = scene_of(pair_of_balls + scene_text::wall("0.1"));
   EXPECT_EQ(scene.spheres.at(0).velocity, (scenes::Triple{"1", "0", "0"}));
   EXPECT_EQ(scene.spheres.at(1).position, (scenes::Triple{"0.0199", "0.5", "0"}));
   EXPECT_EQ(scene.walls.at(0).position, "0.1");
-  EXPECT_EQ(scene.bonds.at(0).second, 1);
   EXPECT_EQ(scene.materials.at(0).stiffness, "1e5");
 }
 

@@ -36,7 +36,7 @@ struct Material {
   std::string name;
   Expression density = "1000";  // kg/m^3
   Expression young = "1e7";     // Pa
-  // N/m of a body's own spring in linear contacts, in place of young * radius (the steps of waves then say nothing).
+  // N/m of a body's own spring in linear contacts, not young * radius (p_wave and rayleigh then say nothing).
   std::optional<Expression> stiffness;
   Expression poisson = "0";         //
   Expression friction_angle = "0";  // degrees

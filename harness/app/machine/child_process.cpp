@@ -1,5 +1,5 @@
 // Child process.
-#include "harness/app/shell/child_process.hpp"
+#include "harness/app/machine/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
