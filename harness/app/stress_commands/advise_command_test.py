@@ -65,7 +65,7 @@ def test_nothing_cheaper_that_was_looked_at_meets_the_error():
             # Rivals were timed again, together.
             assert p["seconds"] >= 0.6 * best
     assert len(found["curves"]) == len(
-        {(c["type"], c["integrator"]) for c in found["curves"]}
+        {(c["type"], c["integrator"], c["planned"]) for c in found["curves"]}
     )
 
 

@@ -7,6 +7,7 @@
 #include "harness/core/kernels/kernel_states.hpp"
 #include "harness/core/subject/registry.hpp"
 #include "harness/core/watch/heartbeat.hpp"
+#include "kernels/dem/formulas/safe_range.hpp"
 #include "kernels/dem/table/kernel_table.hpp"
 #include "reference/text/text.hpp"
 
@@ -205,7 +206,7 @@ class KernelSubject final : public Subject {
         if (abs(exact[i]) > largest) largest = abs(exact[i]);
       }
       int exponent = 0;
-      if (largest > 0 && largest <= std::numeric_limits<Reference>::max()) (void)frexp(largest, &exponent);
+      if (largest > 0 && largest <= dem::largest_number<Reference>()) (void)frexp(largest, &exponent);
       return exponent;
     }
 

@@ -85,7 +85,7 @@ template <RealType Real>
   for (const Real& c : {a.y, a.z}) {
     if (abs(c) > largest) largest = abs(c);
   }
-  if (!(largest > 0) || largest > Real(std::numeric_limits<Real>::max())) return {a, 0};
+  if (!(largest > 0) || largest > largest_number<Real>()) return {a, 0};
   int exponent = 0;
   (void)frexp(largest, &exponent);
   return {ScaledVec3<Real>{a, -exponent}.value(), exponent};
@@ -133,9 +133,8 @@ template <RealType Real>
 template <RealType Real>
 [[nodiscard]] Vec3<Real> direction(const Vec3<Real>& a, const Real& length) {
   // Below the normal range a length has few digits, and it may be infinite where the vector is not.
-  static const Real least(std::numeric_limits<Real>::min());
-  static const Real largest(std::numeric_limits<Real>::max());
-  return length >= least && length <= largest ? a / length : scaling::direction(a);
+  return length >= least_normal<Real>() && length <= largest_number<Real>() ? a / length
+                                                                            : scaling::direction(a);
 }
 
 // factor |a|^2/2.
