@@ -44,7 +44,7 @@ void add_velocities(std::vector<KernelStateCase>& list) {
        .kernel = "sphere_relative_velocity",
        .inputs = "1 0 0 0.1 1 1 huge/4 0 0 -huge/4 0 0" + rest,
        .known = {
-           {"mpfr62,mpfr150,cpp_bin_float62", StressVerdict::wrong_outcome,
+           {"cpp_bin_float62", StressVerdict::wrong_outcome,
             "The reference of this type has the same range of exponents, and the error is measured at its "
             "end: a property of the type."}}});
   list.push_back({.name = "near_overflow_velocity",
