@@ -18,6 +18,13 @@ namespace {
   throw Failure(Standing::bad_input, fmt::format("{}: {}", place, what));
 }
 
+// A float of TOML: digits on both sides of the point, or an exponent.
+std::string toml_float(double x) {
+  std::string text = fmt::format("{}", x);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
 std::string keys_of(RowKind of) {
   std::string keys;
   for (const auto& column : figure_columns(of)) keys += (keys.empty() ? "" : ", ") + std::string(column.key);
@@ -99,7 +106,7 @@ std::string file_text(const std::string& name, const FigureFile& file) {
         throw Failure(Standing::not_finite, fmt::format("{} {}: {} is {}, of which no budget can be made",
                                                         name, key, column.key, limit->second));
       }
-      text += fmt::format("{} = {:#}\n", column.key, limit->second);
+      text += fmt::format("{} = {}\n", column.key, toml_float(limit->second));
     }
     if (!b.reason.empty()) text += fmt::format("reason = {}\n", toml_quoted(b.reason));
   }
