@@ -111,7 +111,7 @@ TEST(SceneValidation, A6DegenerateBodiesAreRefusedWithTheirPlace) {
       {facet + "[[1, 1, 1], [1, 1, 1], [0, 0, 1]]\n", "facet[0] (body 1): the facet has no area"},
       {box + "[0, 0, 2]\n", ""},
       {box + "[0, 0, 0]\n", "box[0].axis: its length must be positive"},
-      {box + "[0, 1e-200, 0]\n", "box[0].axis: its length must be positive"},
+      {box + "[0, 1e-200, 0]\n", ""},  // a direction all the same
       {"[[sphere]]\nposition = [0, 0.1, 0]\nradius = 1\n",
        "bodies 0 and 1: their centres are the same point"},
       {"[[sphere]]\nposition = [0, 0.1, 1]\nradius = 1\n", ""},
