@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <regex>
 #include <vector>
 
 #include "harness/app/shell/failure.hpp"
@@ -25,6 +24,14 @@ std::string series(const std::string& version) {
   const std::size_t first = version.find('.');
   const std::size_t second = first == std::string::npos ? first : version.find('.', first + 1);
   return version.substr(0, second);
+}
+
+// "1.81": digits, a point, digits.
+bool is_version(const std::string& text) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto point = std::find_if_not(text.begin(), text.end(), digit);
+  return point != text.begin() && point != text.end() && *point == '.' && point + 1 != text.end() &&
+         std::all_of(point + 1, text.end(), digit);
 }
 
 // 1.9 before 1.10.
@@ -53,8 +60,7 @@ Platform read_platform(const std::filesystem::path& file) {
                          : name == "Boost"        ? &p.boost
                          : name == "instructions" ? &p.instructions
                                                   : nullptr;
-    static const std::regex version("[0-9]+\\.[0-9]+");
-    const bool good = field == &p.instructions ? value == no_fma : std::regex_match(value, version);
+    const bool good = field == &p.instructions ? value == no_fma : is_version(value);
     if (field == nullptr || !field->empty() || !good) {
       throw Failure(
           Standing::bad_input,

@@ -40,7 +40,7 @@ Triple mapped(const SpaceMap& map, const Triple& t, bool shifted, int sign = 1) 
                                   : std::to_string(std::abs(factor)) + "*(" + t[column] + ")";
       sum += (factor < 0 ? "-" : sum.empty() ? "" : "+") + term;
     }
-    if (map.divisor != 1) sum = "(" + sum + ")/" + std::to_string(map.divisor);
+    if (map.divisor != 1) sum.insert(0, "(").append(")/").append(std::to_string(map.divisor));
     if (shifted && map.shift[row] != "0") sum += "+" + map.shift[row];
     out[row] = sum;
   }

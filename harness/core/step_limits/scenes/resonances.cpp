@@ -88,6 +88,7 @@ StressRow scan_resonances(std::string_view token, const ode::StopFlag& stop) {
   }
   std::sort(places.begin(), places.end());
   std::vector<Point> line;
+  line.reserve(places.size());
   StressRow row;
   row.verdict = StressVerdict::stable;
   for (const double z : places) {
