@@ -132,6 +132,26 @@ template <RealType Real>
   return scaled(longest).exponent;
 }
 
+// In units of 2^exponent m.
+template <RealType Real>
+[[nodiscard]] Real in_unit(int exponent, const Real& length) {
+  using std::ldexp;
+  return ldexp(length, -exponent);
+}
+template <RealType Real>
+[[nodiscard]] Vec3<Real> in_unit(int exponent, const Vec3<Real>& v) {
+  return ScaledVec3<Real>{v, -exponent}.value();
+}
+template <RealType Real>
+[[nodiscard]] Facet<Real> in_unit(int exponent, const Facet<Real>& t) {
+  return {in_unit(exponent, t.a), in_unit(exponent, t.b), in_unit(exponent, t.c)};
+}
+// Back from them.
+template <RealType Real>
+[[nodiscard]] ContactGeometry<Real> in_metres(int exponent, const ContactGeometry<Real>& g) {
+  return {in_unit(-exponent, g.overlap), g.normal, in_unit(-exponent, g.point)};
+}
+
 template <RealType Real>
 [[nodiscard]] ContactGeometry<Real> facet_sphere(const Facet<Real>& t, const Vec3<Real>& x, const Real& r);
 
@@ -139,11 +159,9 @@ template <RealType Real>
 template <RealType Real>
 [[nodiscard, gnu::noinline]] ContactGeometry<Real> facet_sphere_in_unit(int exponent, const Facet<Real>& t,
                                                                         const Vec3<Real>& x, const Real& r) {
-  const auto in = [](const Vec3<Real>& v, int by) { return ScaledVec3<Real>{v, by}.value(); };
-  const Facet<Real> unit{in(t.a, -exponent), in(t.b, -exponent), in(t.c, -exponent)};
-  using std::ldexp;
-  const ContactGeometry<Real> g = facet_sphere<Real>(unit, in(x, -exponent), ldexp(r, -exponent));
-  return {ldexp(g.overlap, exponent), g.normal, in(g.point, exponent)};
+  const ContactGeometry<Real> g =
+      facet_sphere<Real>(in_unit(exponent, t), in_unit(exponent, x), in_unit(exponent, r));
+  return in_metres(exponent, g);
 }
 
 template <RealType Real>

@@ -53,10 +53,18 @@ class FacetMesh {
            repeated_.capacity();
   }
 
+  // Of a facet with a sphere of centre x and radius r (m), in the unit of the facet.
   [[nodiscard]] FacetContact<Real> contact(std::size_t facet, const Vec3<Real>& x, const Real& r) const {
-    return facet_contact(facets_[facet].facet, facets_[facet].normal, x, r);
+    const Measured& m = facets_[facet];
+    if (m.exponent == 0) return facet_contact(m.facet, m.normal, x, r);
+    return facet_contact(m.facet, m.normal, in_unit(m.exponent, x), in_unit(m.exponent, r));
   }
-  // Whether the contact `c` of a facet with a sphere of centre x and radius r (m) counts.
+  // In metres: what facet_sphere() gives.
+  [[nodiscard]] ContactGeometry<Real> geometry(std::size_t facet, const FacetContact<Real>& c) const {
+    const int exponent = facets_[facet].exponent;
+    return exponent == 0 ? c.geometry : in_metres(exponent, c.geometry);
+  }
+  // Whether the contact `c` of a facet with this sphere counts.
   [[nodiscard]] bool counts(std::size_t facet, const FacetContact<Real>& c, const Vec3<Real>& x,
                             const Real& r) const {
     return nearer(facet, c, x, r) < 0;
@@ -89,17 +97,23 @@ class FacetMesh {
   using Corners = std::array<std::int32_t, 3>;
   static constexpr int longest_way = 16;  // facets that a sphere may cross in a step and keep its spring
 
+  // In a unit of 2^exponent m, of its own size where squares of areas in metres would leave the type.
   struct Measured {
+    int exponent = 0;
     Facet<Real> facet;
     Vec3<Real> normal;
-    std::array<Real, 3> edge;  // lengths of ab, bc, ca, m
-    Real blur{0};              // m, and m of it for each m of a sphere's radius
-    Real blur_of_radius{0};
+    std::array<Real, 3> edge;  // lengths of ab, bc, ca
+    Real blur{0};
+    Real blur_of_radius{0};  // more of it for each unit of a sphere's radius
   };
 
-  [[nodiscard]] static Measured measured(const Facet<Real>& t) {
+  [[nodiscard]] static Measured measured(const Facet<Real>& given) {
     using std::abs;
-    Measured m{t, facet_normal(t), {norm(t.b - t.a), norm(t.c - t.b), norm(t.a - t.c)}, Real(0), Real(0)};
+    const bool safe = is_safe(squared_norm(cross(given.b - given.a, given.c - given.a)));
+    const int exponent = safe ? 0 : size_exponent(given);
+    const Facet<Real> t = exponent == 0 ? given : in_unit(exponent, given);
+    Measured m{exponent, t,      facet_normal(t), {norm(t.b - t.a), norm(t.c - t.b), norm(t.a - t.c)},
+               Real(0),  Real(0)};
     Real size{0};
     for (const Vec3<Real>& corner : {t.a, t.b, t.c}) {
       for (std::size_t i = 0; i < 3; ++i) size = std::max<Real>(size, abs(corner[i]));
@@ -170,7 +184,8 @@ class FacetMesh {
   [[nodiscard]] FacetCorners corners_of(std::size_t k, const FacetContact<Real>& c, const Real& r) const {
     const Measured& m = facets_[k];
     const Facet<Real>& t = m.facet;
-    const Real blur = m.blur + r * m.blur_of_radius;
+    const Real reach = m.exponent == 0 ? r : in_unit(m.exponent, r);
+    const Real blur = m.blur + reach * m.blur_of_radius;
     const Vec3<Real>& q = c.nearest.place;
     FacetCorners corners = c.nearest.corners;
     if (corners == whole_face) {

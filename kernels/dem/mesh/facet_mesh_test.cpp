@@ -54,28 +54,31 @@ struct Surface {
     for (std::size_t k = 0; k < facets.size(); ++k) {
       const FacetContact<Real> c = mesh.contact(k, x, r);
       if (!(c.geometry.overlap > 0)) continue;
-      found.least = std::min(found.least, Real(r - c.geometry.overlap));
+      const Real distance = r - mesh.geometry(k, c).overlap;
+      found.least = std::min(found.least, distance);
       const bool counts = mesh.counts(k, c, x, r);
       EXPECT_EQ(counts, mesh.successor(k, x, r) < 0) << k;
       if (!counts) continue;
       found.facets.push_back(k);
-      found.counted = std::min(found.counted, Real(r - c.geometry.overlap));
+      found.counted = std::min(found.counted, distance);
     }
     return found;
   }
 };
 
-// A plane square of n by n quadrangles of random shape, each cut along a random diagonal, in any orientation.
+// A plane square of n by n quadrangles of random shape, each cut along a random diagonal, in any orientation;
+// each is `size` m wide.
 template <RealType Real>
-void one_contact_wherever_a_plane_is_cut(int n, double offset) {
+void one_contact_wherever_a_plane_is_cut(int n, double offset, double size = 1) {
   std::mt19937 draw(7);
   const auto uniform = [&] { return static_cast<double>(draw()) / 4294967296.0; };
   const double tilt = 0.7;
   const auto place = [&](double u, double v, double w) -> std::array<double, 3> {
     // Turned about z, then about x.
     const double y = u * std::sin(0.4) + v * std::cos(0.4);
-    return {u * std::cos(0.4) - v * std::sin(0.4) + offset, y * std::cos(tilt) - w * std::sin(tilt),
-            y * std::sin(tilt) + w * std::cos(tilt)};
+    return {size * (u * std::cos(0.4) - v * std::sin(0.4) + offset),
+            size * (y * std::cos(tilt) - w * std::sin(tilt)),
+            size * (y * std::sin(tilt) + w * std::cos(tilt))};
   };
   Points plane;
   Points points;
@@ -116,9 +119,11 @@ void one_contact_wherever_a_plane_is_cut(int n, double offset) {
     for (std::size_t k = 0; k < 3; ++k)
       x[k] +=
           std::numeric_limits<Real>::epsilon() * x[k] * static_cast<Real>(static_cast<int>(draw() % 7) - 3);
-    const auto found = surface.touch(x, Real(1.5));
+    const auto found = surface.touch(x, static_cast<Real>(1.5 * size));
     ASSERT_EQ(found.facets.size(), 1U) << "centre " << i;
-    EXPECT_LE(found.counted - found.least, 64 * std::numeric_limits<Real>::epsilon() * (1 + offset)) << i;
+    const double nearest =
+        64 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (1 + offset) * size;
+    EXPECT_LE(static_cast<double>(found.counted - found.least), nearest) << i;
     seams += i % 4 == 1 || i % 4 == 2 ? 1 : 0;
   }
   EXPECT_EQ(seams, 3000);
@@ -128,6 +133,16 @@ TEST(FacetMesh, APlaneIsTouchedOnceHoweverItIsCut) {
   one_contact_wherever_a_plane_is_cut<double>(6, 0);
   one_contact_wherever_a_plane_is_cut<float>(6, 0);
   one_contact_wherever_a_plane_is_cut<double>(3, 1e6);
+}
+
+// Squares of areas leave a float below 1e-10 m and above 1e9 m.
+TEST(FacetMesh, APlaneOfAnySizeIsTouchedOnce) {
+  for (const double size : {1e-15, 1e-12, 1e12, 1e15}) {
+    SCOPED_TRACE(size);
+    one_contact_wherever_a_plane_is_cut<float>(4, 0, size);
+  }
+  one_contact_wherever_a_plane_is_cut<double>(4, 0, 1e-100);
+  one_contact_wherever_a_plane_is_cut<double>(4, 0, 1e100);
 }
 
 // Beyond its border the nearest point of a plane is one of the border, whose strips are narrower than the

@@ -27,7 +27,7 @@ struct FacetContacts {
     const Real& r = bodies.radius[i2];
     const FacetContact<Real> c = mesh->contact(facet, x, r);
     if (c.geometry.overlap > 0 && !mesh->counts(facet, c, x, r)) return {};
-    return c.geometry;
+    return mesh->geometry(facet, c);
   }
 
   // The pair whose contact facet i1 goes on with in this step; -1 where there is none, or i1 is no facet of a

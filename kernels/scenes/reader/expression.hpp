@@ -46,7 +46,7 @@ class Evaluator {
   // Throws ExpressionError on malformed text.
   [[nodiscard]] Real operator()(std::string_view text) const {
     Cursor c{text, 0, *this};
-    const Real value = c.sum();
+    Real value = c.sum();  // not const: it is moved out
     c.skip_space();
     if (c.at != text.size()) c.fail("unexpected '" + std::string(1, text[c.at]) + "'");
     return value;
