@@ -91,7 +91,9 @@ void one_contact_wherever_a_plane_is_cut(int n, double offset, double size = 1) 
     }
   }
   Triangles triangles;
-  const auto node = [&](int i, int j) { return static_cast<std::size_t>(i * (n + 1) + j); };
+  const auto node = [&](int i, int j) {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(n + 1) + static_cast<std::size_t>(j);
+  };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       const std::size_t corner[] = {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
