@@ -144,3 +144,88 @@ def test_what_cannot_be_asked_is_said(small_build):
         changed_since.main(["HEAD", "--build", "/nowhere"])
     with pytest.raises(Failure, match="rev-parse"):
         changed_since.main(["no-such-revision", "--build", str(small_build / "build")])
+
+
+@pytest.fixture
+def gate_of(small_build):
+    """ci/gate over a program that only notes what it is asked to measure."""
+    for place in ("ci/gate", "scripts/changed_since.py", "scripts/pendulum"):
+        there = small_build / place
+        there.parent.mkdir(exist_ok=True)
+        shutil.copy(pathlib.Path(__file__).parents[1] / place, there)
+    asked = small_build / "build/asked"
+    program = small_build / "build/harness/app/ulpgate"
+    program.parent.mkdir(parents=True)
+    program.write_text(f'#!/bin/sh\necho "$@" >>{asked}\n')
+    program.chmod(0o755)
+    with open(small_build / ".gitignore", "a") as ignored:
+        ignored.write("/out/\n/ci/\n/scripts/\n")
+    subprocess.run(
+        ["git", "-c", "user.name=a", "-c", "user.email=a@b", "commit", "-qam", "x"],
+        cwd=small_build,
+        check=True,
+    )
+
+    def gate(*words):
+        asked.unlink(missing_ok=True)
+        done = subprocess.run(
+            [small_build / "ci/gate", "--ulpgate", program, *words],
+            capture_output=True,
+            text=True,
+        )
+        lines = asked.read_text().splitlines() if asked.exists() else []
+        # The first looks at the platform.
+        return done.returncode, lines[1:], done.stderr
+
+    return small_build, gate
+
+
+def verbs(lines):
+    return {line.split()[0] for line in lines}
+
+
+def test_the_gate_measures_what_changed_files_can_affect(gate_of):
+    root, gate = gate_of
+    code, whole, _ = gate()
+    assert code == 0
+    assert verbs(whole) == {
+        *("math", "kernels", "scene", "integrators", "stress", "work-precision"),
+        "gate",
+    }
+    assert any("pendulum" in line for line in whole)
+    assert "--only-measured" not in whole[-1]
+
+    code, lines, said = gate("--changed-since", "HEAD")
+    assert code == 0 and "the worst cases alone are measured" in said
+    assert verbs(lines) == {"math", "gate"} and "--strata worst" in lines[0]
+
+    (root / "a.hpp").write_text("#pragma once\nint y;\n")
+    code, lines, said = gate("--changed-since", "HEAD")
+    assert code == 0 and "functions and kernels in double" in said
+    assert verbs(lines) == {"math", "gate"}
+    assert all("--types double" in line for line in lines[:-1])
+    # As many samples as the budgets': the same plan.
+    assert "--only-measured" in lines[-1] and "--other-plan" not in lines[-1]
+
+    (root / "unknown.txt").write_text("new\n")
+    code, lines, said = gate("--changed-since", "HEAD")
+    assert code == 0 and "everything is measured" in said
+    assert lines == whole
+
+
+def test_the_gate_refuses_to_choose_twice(gate_of):
+    _, gate = gate_of
+    for more in (["--types", "float"], ["--samples", "100"], ["--records", "x"]):
+        code, lines, said = gate("--changed-since", "HEAD", *more)
+        assert code == 2 and not lines and "--changed-since chooses" in said
+    code, _, said = gate("--changed-since", "no-such-revision")
+    assert code == 2 and "'no-such-revision' is no commit" in said
+
+
+def test_a_program_without_its_build_is_gated_whole(gate_of):
+    root, gate = gate_of
+    _, whole, _ = gate()
+    (root / "build/build.ninja").rename(root / "build/elsewhere")
+    code, lines, said = gate("--changed-since", "HEAD")
+    assert code == 0 and lines == whole
+    assert "is no build" in said and "everything is measured" in said
