@@ -174,8 +174,9 @@ def gate_of(small_build):
             text=True,
         )
         lines = asked.read_text().splitlines() if asked.exists() else []
-        # The first looks at the platform.
-        return done.returncode, lines[1:], done.stderr
+        lines = [line for line in lines if "out/gate/platform" not in line]
+        # Runs of the pendulum go on side by side; the last judges.
+        return done.returncode, sorted(lines[:-1]) + lines[-1:], done.stderr
 
     return small_build, gate
 
@@ -215,7 +216,12 @@ def test_the_gate_measures_what_changed_files_can_affect(gate_of):
 
 def test_the_gate_refuses_to_choose_twice(gate_of):
     _, gate = gate_of
-    for more in (["--types", "float"], ["--samples", "100"], ["--records", "x"]):
+    for more in (
+        ["--types", "float"],
+        ["--samples", "100"],
+        ["--parts", "math"],
+        ["--records", "x"],
+    ):
         code, lines, said = gate("--changed-since", "HEAD", *more)
         assert code == 2 and not lines and "--changed-since chooses" in said
     code, _, said = gate("--changed-since", "no-such-revision")
@@ -229,3 +235,15 @@ def test_a_program_without_its_build_is_gated_whole(gate_of):
     code, lines, said = gate("--changed-since", "HEAD")
     assert code == 0 and lines == whole
     assert "is no build" in said and "everything is measured" in said
+
+
+def test_parts_are_measured_in_the_plan_of_the_budgets(gate_of):
+    _, gate = gate_of
+    code, lines, _ = gate("--parts", "kernels,stress", "--types", "double")
+    assert code == 0 and verbs(lines) == {"kernels", "stress", "gate"}
+    assert "--types double" in lines[0]
+    assert "--only-measured" in lines[-1] and "--other-plan" not in lines[-1]
+    _, lines, _ = gate("--parts", "math", "--samples", "100")
+    assert verbs(lines) == {"math", "gate"} and "--other-plan" in lines[-1]
+    code, lines, said = gate("--parts", "math,pendulums")
+    assert code == 2 and not lines and "no part 'pendulums'" in said
