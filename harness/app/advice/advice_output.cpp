@@ -40,7 +40,8 @@ void print_looked_at(const Advice& advice, const AdviceCase& c) {
   std::vector<WorkPoint> points;
   for (std::size_t i = 0; i < advice.search.points.size(); ++i)
     points.push_back({advice.search.points[i].certain_error(), advice.places[i].seconds});
-  fmt::print("Pareto front of the {} settings looked at:\n", points.size());
+  fmt::print("Pareto front of the {} settings looked at (errors with that of the truth added):\n",
+             points.size());
   for (const auto i : pareto_front(points)) {
     const WorkSetting& s = advice.places[i].row.setting;
     fmt::print("  {:<16} {:<22} {:>9} steps  error {:.2e}  {:>10}{}\n", s.type, s.integrator, s.steps,
