@@ -248,8 +248,9 @@ class Judge {
               "write the budget anew with --update --reason",
               r.planned, r.stratum, then->second));
     }
+    // What a limit was raised for need not show here: the processor of another machine, say.
     const auto limit = budget.max_ulp.find(r.stratum);
-    if (limit == budget.max_ulp.end()) return;
+    if (limit == budget.max_ulp.end() || !budget.reason.empty()) return;
     const double found = r.summary.judged() > 0 ? r.summary.max_error.value : 0;
     if (found >= 0 && found < limit->second / ratchet) {
       add(FindingKind::lost_cases, r,

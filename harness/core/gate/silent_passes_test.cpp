@@ -197,6 +197,17 @@ TEST(SilentPasses, LostHardCasesAreNoImprovement) {
   EXPECT_FALSE(has(judged(row("hard", more), budgets), FindingKind::lost_cases));
 }
 
+// A limit that was raised for another machine tells nothing about the cases of this one; a shorter list does.
+TEST(SilentPasses, ALimitRaisedForAReasonNeedNotBeReached) {
+  const auto errors = hard_errors();
+  Budgets budgets = budgets_of(row("hard", errors));
+  for (auto& [type, of_type] : budgets) {
+    for (auto& [name, budget] : of_type.rows) budget.reason = "instructions of another processor";
+  }
+  EXPECT_FALSE(has(judged(row("hard", good_errors(errors.size(), 1)), budgets), FindingKind::lost_cases));
+  EXPECT_TRUE(has(judged(row("hard", {errors.begin() + 1, errors.end()}), budgets), FindingKind::lost_cases));
+}
+
 TEST(Bounds, LieAboveTheMaximaByMoreWhereTheyScatterMore) {
   const double even = exceeded_by_no_seed(std::vector<double>{0.500, 0.501, 0.502, 0.501});
   EXPECT_GT(even, 0.502);
