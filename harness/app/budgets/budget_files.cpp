@@ -92,6 +92,20 @@ std::map<std::string, std::uint64_t> parse_mismatches(const std::string& file, c
   return counts;
 }
 
+// { stratum = "digest", ... }
+std::map<std::string, std::string> parse_digests(const std::string& file, const toml::node& node,
+                                                 std::string_view name) {
+  std::map<std::string, std::string> digests;
+  for (const auto& [stratum, value] : table_of(file, node, name, "digest", "stratum = \"0123abcd\"")) {
+    const std::string of = stratum_of(file, value, name, "digest", stratum.str());
+    const auto digest = value.value_exact<std::string>();
+    if (!digest || digest->size() != 8 || digest->find_first_not_of("0123456789abcdef") != std::string::npos)
+      bad(file, value, fmt::format("[{}] digest of {} must be eight hexadecimal digits", name, of));
+    digests[of] = *digest;
+  }
+  return digests;
+}
+
 // Every stratum has a limit of its maximum, or says how many of its errors are beyond measure.
 void check_row(const std::string& file, const toml::table& row, std::string_view name, const Budget& budget) {
   const auto limited = [&](const std::string& stratum) {
@@ -115,6 +129,7 @@ void check_row(const std::string& file, const toml::table& row, std::string_view
   for (const auto& bound : bound_columns) known(bound.key, budget.*bound.limits);
   known("winsorized_ulp", budget.winsorized_ulp);
   known("above", budget.above);
+  known("digest", budget.digest);
 }
 
 Budget parse_row(const std::string& file, const toml::table& row, std::string_view name) {
@@ -136,6 +151,8 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
       budget.above = parse_tails(file, node, name);
     } else if (key == "mismatch") {
       budget.mismatch = parse_mismatches(file, node, name);
+    } else if (key == "digest") {
+      budget.digest = parse_digests(file, node, name);
     } else if (key == "implementation" && node.is_string()) {
       budget.implementation = *node.value<std::string>();
     } else if (key == "reason" && node.is_string()) {
@@ -144,7 +161,8 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
       bad(file, node,
           fmt::format(
               "[{}] has no key '{}' of this kind (implementation, samples, max_ulp, mean_ulp, p99_ulp, "
-              "over_condition, bound_ulp, bound_over_condition, winsorized_ulp, above, mismatch, reason)",
+              "over_condition, bound_ulp, bound_over_condition, winsorized_ulp, above, mismatch, digest, "
+              "reason)",
               name, key.str()));
     }
   }
@@ -166,6 +184,10 @@ std::string number(const std::map<int, std::uint64_t>& counts) {
     separator = ", ";
   }
   return text + " }";
+}
+
+std::string number(const std::string& text) {
+  return toml_quoted(text);
 }
 
 // A line of a row's figures by stratum; nothing where there are none.
@@ -201,6 +223,7 @@ std::string file_text(const std::string& token, const TypeBudgets& type) {
     text += figures_text("winsorized_ulp", b.winsorized_ulp);
     text += figures_text("above", b.above);
     text += figures_text("mismatch", b.mismatch);
+    text += figures_text("digest", b.digest);
     if (!b.reason.empty()) text += fmt::format("reason = {}\n", toml_quoted(b.reason));
   }
   return text;

@@ -37,6 +37,8 @@ FigureBudget parse_row(RowKind of, const toml::table& row, std::string_view name
   for (const auto& [key, node] : row) {
     if (key == "reason" && node.is_string()) {
       b.reason = *node.value<std::string>();
+    } else if (key == "digest" && node.is_string()) {
+      b.digest = *node.value<std::string>();
     } else if (key == "outcome" && node.is_string()) {
       b.outcome = *node.value<std::string>();
     } else {
@@ -45,12 +47,14 @@ FigureBudget parse_row(RowKind of, const toml::table& row, std::string_view name
       if (std::ranges::find(columns, key.str(), &FigureColumn::key) == columns.end() || !x ||
           !std::isfinite(*x) || *x < 0)
         bad(at(node),
-            fmt::format("['{}'] {} must be one of {} and a finite number >= 0, an outcome or a reason", name,
-                        key.str(), keys_of(of)));
+            fmt::format(
+                "['{}'] {} must be one of {} and a finite number >= 0, an outcome, a digest or a reason",
+                name, key.str(), keys_of(of)));
       b.limits[std::string(key.str())] = *x;
     }
   }
-  if (b.limits.empty() && b.outcome.empty()) bad(at(row), fmt::format("['{}'] limits nothing", name));
+  if (b.limits.empty() && b.outcome.empty() && b.digest.empty())
+    bad(at(row), fmt::format("['{}'] limits nothing", name));
   return b;
 }
 
@@ -108,6 +112,7 @@ std::string file_text(const std::string& name, const FigureFile& file) {
       }
       text += fmt::format("{} = {}\n", column.key, toml_float(limit->second));
     }
+    if (!b.digest.empty()) text += fmt::format("digest = {}\n", toml_quoted(b.digest));
     if (!b.reason.empty()) text += fmt::format("reason = {}\n", toml_quoted(b.reason));
   }
   return text;

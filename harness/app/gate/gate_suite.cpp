@@ -41,6 +41,16 @@ void use_platform(const std::optional<PlatformBudgets>& platform, GateResult& re
   fmt::print(stderr, "ulpgate: {}: {}\n", result.budgets_directory, result.platform);
 }
 
+// Digests hold where they were taken: on a platform without budgets of its own other libraries compute.
+template <class Files>
+typename Files::All held_here(const HeldBudgets<Files>& both,
+                              const std::optional<PlatformBudgets>& platform) {
+  auto held = both.held();
+  using Match = PlatformBudgets::Match;
+  if (platform && platform->match != Match::base && platform->match != Match::exact) forget_digests(held);
+  return held;
+}
+
 void add_findings(GateResult& result, std::vector<GateFinding> findings) {
   for (const auto& f : findings) result.verdict.add(standing_of(f.kind));
   result.findings = std::move(findings);
@@ -81,7 +91,7 @@ void judge_samples(const GateRules& rules, GateResult& result) {
   const auto platform = platform_for(result.records_directory, result.budgets_directory, set.context, rules);
   const SampleFiles files;
   auto both = read_held(files, result.budgets_directory, platform);
-  const Budgets held = both.held();
+  const Budgets held = held_here(both, platform);
   if (held.empty()) throw no_budgets(result.budgets_directory);
   use_platform(platform, result);
   for (const auto& other : other_codes(set.records, held)) {
@@ -116,7 +126,7 @@ void judge_measured(const GateRules& rules, GateResult& result) {
       platform_for(result.records_directory, result.budgets_directory, measured.context, rules);
   const FigureFiles files{measured.of};
   auto both = read_held(files, result.budgets_directory, platform);
-  const FigureBudgets held = both.held();
+  const FigureBudgets held = held_here(both, platform);
   if (held.empty()) throw no_budgets(result.budgets_directory);
   use_platform(platform, result);
   result.rows = judged_rows(measured.rows, held);

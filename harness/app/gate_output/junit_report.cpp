@@ -51,7 +51,7 @@ struct TestCase {
 };
 
 bool is_failure(const TestCase& t) {
-  return !t.failing.empty() && t.failing.front()->kind == FindingKind::regression;
+  return !t.failing.empty() && standing_of(t.failing.front()->kind) == Standing::regression;
 }
 bool is_error(const TestCase& t) {
   return !is_failure(t) && (!t.failing.empty() || !t.remarks.empty());

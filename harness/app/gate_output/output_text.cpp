@@ -22,16 +22,18 @@ std::string valid_utf8(const std::string& text) {
 std::string verdict_words(const std::vector<GateResult>& results) {
   const Verdict verdict = verdict_of(results);
   const std::size_t failed = count_of(results, FindingKind::regression);
-  const std::string found = fmt::format("{} findings beyond their budget", failed);
+  const std::size_t other = count_of(results, FindingKind::other_results);
+  std::string found = fmt::format("{} findings beyond their budget", failed);
+  if (other > 0) found += fmt::format(", {} rows with other results", other);
   switch (exit_code(verdict.standing())) {
     case 0:
       return "passes";
     case 1:
-      return failed > 0 ? "red: " + found : "red: what was measured contradicts itself";
+      return failed + other > 0 ? "red: " + found : "red: what was measured contradicts itself";
     case 3:
       return "incomplete: there is no verdict, not all that is budgeted was measured and judged";
     default:
-      return failed > 0 ? "no verdict, and " + found : "no verdict: nothing could be judged";
+      return failed + other > 0 ? "no verdict, and " + found : "no verdict: nothing could be judged";
   }
 }
 

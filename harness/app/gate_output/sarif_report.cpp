@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 // By FindingKind; what can be lowered fails nothing.
 constexpr std::array<const char*, finding_kind_count - 1> descriptions = {
     "A figure is beyond its budget, or what holds whatever a budget says does not",
+    "Within every limit, the results are not those that the budget was made of",
     "The points are of another seed or size than those of the budget",
     "A row was measured that has no budget",
     "A budgeted row was not measured",
@@ -58,8 +59,7 @@ Json result_of(const PlacedFinding& placed, const BudgetPlace& place) {
   return {
       {"ruleId", to_string(f.kind)},
       {"ruleIndex", static_cast<std::size_t>(f.kind)},
-      {"level",
-       f.kind == FindingKind::regression || f.kind == FindingKind::another_plan ? "error" : "warning"},
+      {"level", standing_of(f.kind) != Standing::incomplete ? "error" : "warning"},
       {"message", {{"text", message}}},
       {"locations",
        Json::array(

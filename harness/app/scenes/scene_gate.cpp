@@ -177,6 +177,7 @@ std::vector<MeasuredRow> read_scene_measurements(const std::filesystem::path& di
       set_figure(m, "max_energy_error", row, "max_energy_error");
       set_figure(m, "max_energy_error_raw", row, "max_energy_error_raw");
     }
+    m.digest = text_of(row, "state_hash");
     const std::string run =
         fmt::format("{} --types {} --dt {} --steps {}", m.name, m.type, shell_word(dt), steps);
     std::string against;

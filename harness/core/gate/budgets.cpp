@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "harness/core/gate/digest.hpp"
 #include "harness/core/gate/limits.hpp"
 
 namespace ulpgate {
@@ -30,6 +31,11 @@ std::vector<OtherCode> other_codes(const std::vector<RowRecord>& records, const 
   std::vector<OtherCode> found;
   for (const auto& [key, names] : rows) found.push_back({key[0], key[1], key[2], names.size()});
   return found;
+}
+
+void forget_digests(Budgets& budgets) {
+  for (auto& [token, type] : budgets)
+    for (auto& [row, budget] : type.rows) budget.digest.clear();
 }
 
 namespace {
@@ -57,6 +63,8 @@ void measure_row(const RowRecord& r, Budget& budget) {
   for (std::size_t o = 1; o < outcome_count; ++o) {
     if (s.outcomes[o] > 0) budget.mismatch[mismatch_key(r, o)] = s.outcomes[o];
   }
+  if (r.subject_class == kernel_class && has_portable_results(r.type))
+    budget.digest[r.stratum] = results_digest(r);
 }
 
 }  // namespace
@@ -160,6 +168,7 @@ void replace_strata(Budget& mine, const Budget& measured) {
     for (const auto& column : limit_columns()) (mine.*column.limits).erase(stratum);
     mine.winsorized_ulp.erase(stratum);
     mine.above.erase(stratum);
+    mine.digest.erase(stratum);
     std::erase_if(mine.mismatch,
                   [&name = stratum](const auto& entry) { return is_of_stratum(entry.first, name); });
   }
@@ -172,6 +181,7 @@ void replace_strata(Budget& mine, const Budget& measured) {
   take(mine.winsorized_ulp, measured.winsorized_ulp);
   take(mine.above, measured.above);
   take(mine.mismatch, measured.mismatch);
+  take(mine.digest, measured.digest);
   mine.implementation = measured.implementation;
 }
 

@@ -32,6 +32,8 @@ struct Budget {
   std::map<std::string, std::map<int, std::uint64_t>> above;
   // "stratum.outcome" -> accepted count, e.g. "edges.zero_sign" -> 2.
   std::map<std::string, std::uint64_t> mismatch;
+  // Of kernels, by stratum (digest.hpp): a record of the same points with another one has other results.
+  std::map<std::string, std::string> digest;
   std::string reason;  // why a limit was raised, empty if it never was
   friend bool operator==(const Budget&, const Budget&) = default;
 
@@ -54,6 +56,9 @@ using Budgets = std::map<std::string, TypeBudgets>;  // by type token
 
 // "sin" for a real function, "ctan.re" for a part.
 [[nodiscard]] std::string budget_key(const RowRecord& record);
+
+// What only a platform's own budgets can say is left out: on another one it would turn every row red.
+void forget_digests(Budgets& budgets);
 
 enum class MissingRecords { fail, ignore };
 

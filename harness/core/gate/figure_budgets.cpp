@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "harness/core/gate/digest.hpp"
 #include "harness/core/gate/limits.hpp"
 #include "harness/core/verdict/verdict.hpp"
 
@@ -91,7 +92,7 @@ double ratio_of(const FigureColumn& column, double measured, double limit) {
 }
 
 void judge_one(const MeasuredRow& m, const FigureBudget& budget, std::vector<GateFinding>& findings) {
-  if (budget.limits.empty() && budget.outcome.empty())
+  if (budget.limits.empty() && budget.outcome.empty() && budget.digest.empty())
     findings.push_back(finding(FindingKind::missing_budget, m, "its budget limits nothing"));
   if (budget.outcome != m.outcome) {
     GateFinding f = finding(FindingKind::regression, m,
@@ -101,6 +102,18 @@ void judge_one(const MeasuredRow& m, const FigureBudget& budget, std::vector<Gat
     f.what = "outcome";
     f.got = m.outcome;
     f.wanted = budget.outcome;
+    findings.push_back(std::move(f));
+  }
+  if (!budget.digest.empty() && budget.digest != m.digest) {
+    GateFinding f =
+        m.digest.empty()
+            ? finding(FindingKind::incomplete, m, "a digest is budgeted and was not measured")
+            : finding(FindingKind::other_results, m,
+                      fmt::format("final state {}, of the budget {} (--update where that is meant)", m.digest,
+                                  budget.digest));
+    f.what = "final state";
+    f.got = m.digest;
+    f.wanted = budget.digest;
     findings.push_back(std::move(f));
   }
   for (const auto& column : figure_columns(m.of)) {
@@ -156,6 +169,11 @@ void note_slack(const MeasuredRow& m, const FigureBudget& budget, std::vector<Ga
 }
 
 }  // namespace
+
+void forget_digests(FigureBudgets& budgets) {
+  for (auto& [name, file] : budgets)
+    for (auto& [key, budget] : file.rows) budget.digest.clear();
+}
 
 std::string figure_key(const MeasuredRow& m) {
   return m.run.empty() ? m.type : m.type + " " + m.run;
@@ -238,6 +256,7 @@ std::vector<JudgedRow> judged_rows(const std::vector<MeasuredRow>& measured, con
 FigureBudget measured_figure_budget(const MeasuredRow& m) {
   FigureBudget b;
   b.outcome = m.outcome;
+  if (has_portable_results(m.type)) b.digest = m.digest;
   for (const auto& column : figure_columns(m.of)) {
     const auto figure = m.figures.find(std::string(column.key));
     if (figure != m.figures.end()) b.limits[figure->first] = limit_of(column, figure->second);
@@ -275,6 +294,8 @@ std::vector<Raise> update_figure_budgets(FigureBudgets& present, const std::vect
       what += fmt::format(" outcome '{}' -> '{}'", kept.outcome, now.outcome);
       if (!reason.empty()) kept.outcome = now.outcome;
     }
+    // Other results are no looser ones: what is loosened decides.
+    if (what.empty() || !reason.empty()) kept.digest = now.digest;
     if (what.empty()) continue;
     raises.push_back({m.type, label(m), what});
     if (!reason.empty()) kept.reason = reason;

@@ -41,6 +41,7 @@ struct MeasuredRow {
   // By key of a column.  Not there: not measured; NaN and infinity: beyond every budget.
   std::map<std::string, double> figures{};
   std::string outcome{};    // a word that a budget holds as it is: "stable", "refused"; empty: none
+  std::string digest{};     // of the final state, as a text; empty: none was taken
   std::string reproduce{};  // a command
   // What is wrong whatever a budget says, in words; empty: nothing.
   std::string breach{};
@@ -50,6 +51,7 @@ struct MeasuredRow {
 struct FigureBudget {
   std::map<std::string, double> limits;  // finite, by key of a column
   std::string outcome;
+  std::string digest;  // empty: the final state may be any
   std::string reason;
   friend bool operator==(const FigureBudget&, const FigureBudget&) = default;
 };
@@ -60,6 +62,9 @@ struct FigureFile {
   friend bool operator==(const FigureFile&, const FigureFile&) = default;
 };
 using FigureBudgets = std::map<std::string, FigureFile>;  // by name
+
+// As of samples.
+void forget_digests(FigureBudgets& budgets);
 
 [[nodiscard]] std::string figure_key(const MeasuredRow& m);
 

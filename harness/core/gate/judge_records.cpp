@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "harness/core/gate/budgets.hpp"
+#include "harness/core/gate/digest.hpp"
 #include "harness/core/gate/findings/reproducer.hpp"
 #include "harness/core/gate/limits.hpp"
 #include "harness/core/verdict/verdict.hpp"
@@ -210,11 +211,26 @@ class Judge {
       if (budget.samples.contains(r.stratum)) judge_tail(r, budget);
     }
     judge_mismatches(r, type, budget, true);
+    judge_digest(r, budget);
     const auto stratum = find_stratum(r.stratum);
     if (stratum && !is_drawn(*stratum)) {
       judge_list(r, budget);
     } else if (missing_ == MissingRecords::fail) {
       note_slack(r, budget);
+    }
+  }
+
+  // One finding names all strata of a row.
+  void judge_digest(const RowRecord& r, const Budget& budget) {
+    const auto digest = budget.digest.find(r.stratum);
+    if (digest == budget.digest.end() || digest->second == results_digest(r)) return;
+    const auto [known, first] = other_results_.try_emplace({r.type, row_}, findings_.size());
+    if (first) {
+      add(FindingKind::other_results, r,
+          "its results are not those that the budget was made of (--update where that is meant), in " +
+              r.stratum);
+    } else {
+      findings_[known->second].message += ", " + r.stratum;
     }
   }
 
@@ -342,6 +358,7 @@ class Judge {
   bool kernels_ = false;                           // the records are of kernels
   std::set<std::array<std::string, 3>> measured_;  // by type, row, stratum
   std::vector<GateFinding> findings_;
+  std::map<std::pair<std::string, std::string>, std::size_t> other_results_;  // by type and row, of findings_
 };
 
 }  // namespace

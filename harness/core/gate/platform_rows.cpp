@@ -23,7 +23,7 @@ std::set<std::pair<std::string, std::string>> rows_that_differ(const std::vector
   std::set<std::pair<std::string, std::string>> rows;
   for (const auto& f : findings) {
     if (f.kind == FindingKind::regression || f.kind == FindingKind::missing_budget ||
-        f.kind == FindingKind::lost_cases)
+        f.kind == FindingKind::lost_cases || f.kind == FindingKind::other_results)
       rows.insert({f.budget_file, f.budget_key});
   }
   return rows;

@@ -19,8 +19,8 @@ std::string_view to_string(RowKind kind) {
 
 std::string_view to_string(FindingKind kind) {
   constexpr std::array<std::string_view, finding_kind_count> names = {
-      "regression", "another_plan", "missing_budget", "missing_record",
-      "incomplete", "lost_cases",   "could_lower"};
+      "regression",     "other_results", "another_plan", "missing_budget",
+      "missing_record", "incomplete",    "lost_cases",   "could_lower"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -17,14 +17,15 @@ inline constexpr std::size_t row_kind_count = 7;
 
 enum class FindingKind {
   regression,
-  another_plan,  // drawn with another seed or size than the budget
+  other_results,  // within every limit, but not what the budget was made of
+  another_plan,   // drawn with another seed or size than the budget
   missing_budget,
   missing_record,
   incomplete,
   lost_cases,  // a list whose worst error is far below its budget, or that is shorter
   could_lower,
 };
-inline constexpr std::size_t finding_kind_count = 7;
+inline constexpr std::size_t finding_kind_count = 8;
 [[nodiscard]] std::string_view to_string(FindingKind kind);  // "lost_cases"
 
 struct GateFinding {

@@ -9,6 +9,7 @@ namespace ulpgate {
 Standing standing_of(FindingKind kind) {
   switch (kind) {
     case FindingKind::regression:
+    case FindingKind::other_results:
       return Standing::regression;
     case FindingKind::another_plan:
       return Standing::another_plan;
@@ -28,7 +29,8 @@ std::size_t count_of(const std::vector<GateResult>& results, FindingKind kind) {
 
 std::string_view label_of(FindingKind kind) {
   constexpr std::array<std::string_view, finding_kind_count> names = {
-      "FAIL", "ANOTHER PLAN", "NO BUDGET", "NOT MEASURED", "INCOMPLETE", "LOST CASES", "note"};
+      "FAIL",         "OTHER RESULTS", "ANOTHER PLAN", "NO BUDGET",
+      "NOT MEASURED", "INCOMPLETE",    "LOST CASES",   "note"};
   return names[static_cast<std::size_t>(kind)];
 }
 
