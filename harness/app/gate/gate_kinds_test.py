@@ -152,6 +152,39 @@ def test_a_point_is_shown_in_hexfloat_and_decimal_with_got_and_wanted(place, tmp
     assert json.loads(point)["value"] == shown["got"].split()[0]
 
 
+def other_digest(file, quoted):
+    """As if the first digest of the file had been another one; the text as it was."""
+    text = file.read_text()
+    found = re.search(rf'digest = .*?("{quoted}")', text)
+    at = found.start(1) + 1
+    file.write_text(text[:at] + ("1" if text[at] == "0" else "0") + text[at + 1 :])
+    return text
+
+
+@pytest.mark.parametrize(
+    "kind, quoted", [("kernel", "[0-9a-f]{8}"), ("scene", "[0-9a-f]{16}")]
+)
+def test_other_results_within_every_limit_are_red(place, kind, quoted, tmp_path):
+    shutil.copytree(place / "budgets" / kind, tmp_path / "budgets")
+    file = next((tmp_path / "budgets").glob("*.toml"))
+    text = other_digest(file, quoted)
+    code, out, err = gate(
+        place, kind, "--markdown", tmp_path / "md", budgets=tmp_path / "budgets"
+    )
+    assert code == 1 and out.startswith("OTHER RESULTS "), out
+    assert "1 rows with other results" in (tmp_path / "md").read_text()
+    assert "reproduce: ulpgate " in out.splitlines()[1]
+    # Nothing is loosened: no reason is asked for.
+    code, out, err = gate(place, kind, "--update", budgets=tmp_path / "budgets")
+    assert code == 0 and file.read_text() == text, err
+    file.write_text(re.sub(rf'"{quoted}"', '"nonsense!"', text, count=1))
+    code, out, err = gate(place, kind, budgets=tmp_path / "budgets")
+    if kind == "kernel":
+        assert code == 2 and "eight hexadecimal digits" in err and ".toml:" in err
+    else:
+        assert code == 1 and "final state" in out
+
+
 # What is wrong whatever a budget says: the file, the line and what is changed in it.
 BREACHES = {
     "collisions": ("collisions.jsonl", "ledger", {"beyond": 1}),

@@ -225,3 +225,24 @@ def test_a_platform_is_tightened_in_its_own_rows_alone(other):
     assert code == 0 and "tightened sin float" in out, err
     assert own.read_text() != loose
     assert (other / "budgets/float.toml").read_bytes() == before
+
+
+def test_digests_are_asked_for_where_they_were_taken(other):
+    """Another platform without budgets of its own computes otherwise; one with budgets has its own digests."""
+    where = {"records": "scene", "budgets": "budgets/scenes/run"}
+    base = other / "budgets/scenes/run/pendulum3.toml"
+    text = base.read_text()
+    changed = re.sub(r'digest = ".*"', 'digest = "0123456789abcdef"', text)
+    assert changed != text
+    base.write_text(changed)
+    assert gate(other, "--platform", "base", **where)[0] == 1
+    code, out, err = gate(other, **where)
+    assert code == 0 and "no budgets of" in err, out
+    assert gate(other, "--update", "--platform", "auto", **where)[0] == 0
+    own = other / "budgets/platforms/glibc-2.99_boost-1.99/scenes/run/pendulum3.toml"
+    digest = re.search('digest = ".*"', text)[0]
+    assert digest in own.read_text()
+    assert gate(other, **where)[0] == 0
+    own.write_text(own.read_text().replace(digest, 'digest = "0123456789abcdef"'))
+    code, out, _ = gate(other, **where)
+    assert code == 1 and "OTHER RESULTS" in out
