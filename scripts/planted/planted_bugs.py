@@ -36,6 +36,7 @@ class Size:
     found: bool
     words: list
     budgets: str = ""  # of words for ulpgate; none for words of ci/gate
+    culprit: str = ""  # of this size, where it is not the bug's
 
     @property
     def text(self):
@@ -62,7 +63,12 @@ def read_bugs(file=BUGS):
         bugs = []
         for entry in data["bug"]:
             sizes = [
-                Size(s["found"], s.get("gate") or s["ulpgate"], s.get("budgets", ""))
+                Size(
+                    s["found"],
+                    s.get("gate") or s["ulpgate"],
+                    s.get("budgets", ""),
+                    s.get("culprit", ""),
+                )
                 for s in entry.pop("sizes")
             ]
             bugs.append(Bug(sizes=sizes, **entry))
@@ -152,11 +158,12 @@ class Trials:
             good = not size.found
             text = "MISSED" if size.found else "missed, as is known of this size"
         elif code == 1 and finding:
-            named = bug.culprit in finding[0]
+            culprit = size.culprit or bug.culprit
+            named = culprit in finding[0]
             good = size.found and named
             text = f"red, {finding[2]} rows, first {finding[0]}: {finding[1]}"
             if not named:
-                text += f" -- NOT {bug.culprit}"
+                text += f" -- NOT {culprit}"
             if not size.found:
                 text += " -- bugs.toml says that this size misses it"
         else:
