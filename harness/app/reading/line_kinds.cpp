@@ -74,7 +74,7 @@ std::string no_contradiction(const Json& /*row*/) {
   return "";
 }
 
-constexpr std::array<Field, 21> scene_fields = {{{"scene", name},
+constexpr std::array<Field, 22> scene_fields = {{{"scene", name},
                                                  {"type", word},
                                                  {"integrator", word},
                                                  {"dt", dt},
@@ -94,6 +94,7 @@ constexpr std::array<Field, 21> scene_fields = {{{"scene", name},
                                                  {"energy_slope", number, optional},
                                                  {"energy_slope_raw", number, optional},
                                                  {"state_hash", hash_or_null, optional},
+                                                 {"scene_file", text, optional},
                                                  {"plan", hash}}};
 constexpr std::array<std::string_view, 5> scene_key = {"scene", "type", "integrator", "dt", "variant"};
 

@@ -30,10 +30,12 @@ std::string scene_file(const std::string& name) {
   return read_file(name);
 }
 
-std::string text_of(const std::string& name, std::string& file) {
+// `file`: what errors call it.
+std::string text_of(const std::string& name, std::string& file, bool& built_in) {
   for (const auto& scene : builtin_scenes()) {
     if (name == scene.name) {
       file = name + ".toml";
+      built_in = true;
       return scene.text;
     }
   }
@@ -49,7 +51,9 @@ std::string text_of(const std::string& name, std::string& file) {
 LoadedScene load_scene(const std::string& name, const std::vector<std::string>& overrides) {
   std::string file;
   LoadedScene loaded;
-  loaded.text = text_of(name, file);
+  bool built_in = false;
+  loaded.text = text_of(name, file, built_in);
+  if (!built_in) loaded.file = file;
   auto result = scenes::read_scene(loaded.text, file);
   if (!result.errors.empty()) {
     std::string message;

@@ -18,6 +18,7 @@ struct BuiltinScene {
 struct LoadedScene {
   scenes::Scene scene;
   std::string text;  // of the file, and the overrides: the scene's identity in a plan
+  std::string file;  // its path as it was given; empty: built in
 };
 // `name` is a scene built in, or the path of a TOML file.  Overrides are "key=value".
 [[nodiscard]] LoadedScene load_scene(const std::string& name, const std::vector<std::string>& overrides);

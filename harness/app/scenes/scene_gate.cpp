@@ -178,8 +178,10 @@ std::vector<MeasuredRow> read_scene_measurements(const std::filesystem::path& di
       set_figure(m, "max_energy_error_raw", row, "max_energy_error_raw");
     }
     m.digest = text_of(row, "state_hash");
+    const std::string file = text_of(row, "scene_file");
     const std::string run =
-        fmt::format("{} --types {} --dt {} --steps {}", m.name, m.type, shell_word(dt), steps);
+        fmt::format("{} --types {} --dt {} --steps {}", file.empty() ? m.name : shell_word(file), m.type,
+                    shell_word(dt), steps);
     std::string against;
     if (ledger) add_collisions(collisions, row, m);
     for (const PlacedRow& c : rows.correlations) {

@@ -177,6 +177,8 @@ Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob&
   j["energy_slope"] = number_or_null(s.averaged.slope());
   j["energy_slope_raw"] = number_or_null(s.raw.slope());
   j["state_hash"] = fmt::format("{:016x}", state_hash(engine));
+  // What somebody needs to run it again.
+  if (!job.loaded.file.empty()) j["scene_file"] = job.loaded.file;
   j["plan"] = job.plan;
   return j;
 }
