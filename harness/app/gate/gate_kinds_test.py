@@ -14,6 +14,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "reading"))
 
 from edited_records import edit, lines_of, program, put, run, seal  # noqa: E402
 
+HERTZ = pathlib.Path(__file__).parents[3] / "ci/scenes/hertz.toml"
 KEPLER = ["--types", "double", "--problems", "kepler", "--integrators", "rk4"]
 # Of each kind: the words that measure it.
 KINDS = {
@@ -27,6 +28,11 @@ KINDS = {
     ),
     "scene": (
         *("scene", "run", "pendulum3", "--types", "double", "--steps", "50"),
+        "--series",
+    ),
+    # Not built in: the command needs its file.
+    "scene_file": (
+        *("scene", "run", HERTZ, "--types", "double", "--steps", "2000"),
         "--series",
     ),
     "collisions": (
@@ -53,6 +59,7 @@ PLANTED = [
     ("function", "max_ulp"),
     ("kernel", "over_condition"),
     ("scene", "max_energy_error"),
+    ("scene_file", "max_energy_error"),
     ("t_s", "t_s"),
     ("order", "measured_order"),
     ("drift", "max_energy_error"),
