@@ -54,11 +54,11 @@ constexpr std::array<std::string_view, 4> key = {"kind", "case", "form", "type"}
 std::string contradiction(const Json& row) {
   const std::string verdict = row.at("verdict");
   const bool good = verdict == "stable" || verdict == "ill_conditioned";
-  const bool as_known = verdict == row.at("expected") || (good && row.at("expected") == "stable");
+  const std::string expected = row.at("expected");
+  const bool as_known = verdict == expected || (good && expected == "stable");
   // The other way round a refusal may be for another reason than the known one.
   if (row.at("as_known").get<bool>() && !as_known)
-    return fmt::format("'as_known', but the verdict is {} and {} is expected", verdict,
-                       row.at("expected").get<std::string>());
+    return fmt::format("'as_known', but the verdict is {} and {} is expected", verdict, expected);
   return "";
 }
 
