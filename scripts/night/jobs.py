@@ -167,11 +167,19 @@ def jobs_of(program, size, types, seed, worst_cases):
     kernels = ("kernels", "--types", joined, "--samples")
     gate = ("--budgets", str(ROOT / "ci/budgets/kernels"), "--only-measured")
     jobs.append(Job("kernels/budgets", (*kernels, "64"), gate=gate))
-    large = (*kernels, str(sizes["kernels"]), "--seed", str(seed))
-    jobs.append(Job("kernels/large", large))
+
+    # A job a type: in one, multiprecision would take the hours of all that comes after it.
+    def large(tokens):
+        for t in tokens:
+            words = ("kernels", "--types", t, "--samples", str(sizes["kernels"]))
+            yield Job(f"kernels/large_{t}", (*words, "--seed", str(seed)))
+
     jobs += drawn(["real"], first)
+    jobs += large(first)
     jobs.append(Job("stress", ("stress", "--types", joined, *sizes["stress"])))
-    jobs += drawn(["real"], [t for t in native if t not in first])
+    others = [t for t in native if t not in first]
+    jobs += drawn(["real"], others)
+    jobs += large(others)
     if sizes["exhaustive"] and "float" in types:
         every = ("math", "--types", "float", "--strata", "exhaustive")
         jobs.append(
@@ -196,5 +204,6 @@ def jobs_of(program, size, types, seed, worst_cases):
     if sizes["pendulum"]:
         jobs += pendulum_jobs(program, types)
     jobs += drawn(["complex", "special"], native)
+    jobs += large(wide)
     jobs += drawn(["real", "complex", "special"], wide)
     return jobs

@@ -204,12 +204,12 @@ def test_a_record_that_was_altered_is_made_again(through, tmp_path):
     out = tmp_path / "n"
     subprocess.run(["cp", "-a", str(through[0]), str(out)], check=True)
     wanted = records(out)
-    with open(out / "kernels/large/kernels.jsonl", "a") as file:
+    with open(out / "kernels/large_float/kernels.jsonl", "a") as file:
         file.write("{}\n")
     seal = out / "done/math/lists.json"
     seal.write_text(seal.read_text()[:50])
     done = night(out, "--resume")
-    assert "kernels/large: pass" in done.stderr and "math/lists: pass" in done.stderr
+    assert "kernels/large_float: pass" in done.stderr and "math/lists: pass" in done.stderr
     assert "search/float_sin: pass" not in done.stderr
     assert records(out) == wanted
 
@@ -225,8 +225,8 @@ def test_a_crashing_program_is_tried_twice_and_named(tmp_path):
     assert done.returncode == 4
     facts = status(out)
     assert facts["state"] == "some jobs failed"
-    assert [f["name"] for f in facts["failed"]] == ["kernels/budgets", "kernels/large"]
-    assert done.stderr.count("kernels/large: exit 4") == 2
+    assert [f["name"] for f in facts["failed"]] == ["kernels/budgets", "kernels/large_float"]
+    assert done.stderr.count("kernels/large_float: exit 4") == 2
     assert len(facts["done"]) == facts["jobs"] - 2
 
 
