@@ -321,9 +321,23 @@ class Night:
         facts = self.tell(state)
         say(line_of(facts))
         if left:
-            say(f"left out: {', '.join(left)}")
+            say(f"left out: {', '.join(grouped(left))}")
             say(f"go on with: ci/nightly --out {self.out} --resume")
         return self.worst
+
+
+def grouped(jobs):
+    """Names of jobs for people: searches of many functions of one type are one."""
+    groups = {}
+    for name in jobs:
+        many = name.startswith("search/") and "_" in name
+        groups.setdefault(name.rsplit("_", 1)[0] + "_*" if many else name, []).append(
+            name
+        )
+    return [
+        f"{group} ({len(names)})" if len(names) > 1 else names[0]
+        for group, names in groups.items()
+    ]
 
 
 def run(words):

@@ -69,10 +69,11 @@ Verdict run_gate(const GateOptions& o) {
   check(o);
   if (o.rules.update) {
     Verdict verdict;
+    NewPlatforms made;
     for (std::size_t i = 0; i < o.directories.size(); ++i) {
       // The others are written all the same.
       try {
-        verdict |= update_suite(o.directories[i], o.budgets_of(i), o.rules);
+        verdict |= update_suite(o.directories[i], o.budgets_of(i), o.rules, made);
       } catch (const Failure& failure) {
         fmt::print(stderr, "ulpgate: {}\n", failure.what());
         verdict.add(failure.standing());

@@ -1,7 +1,9 @@
 // A suite of the gate: one directory of records held against one directory of budgets.
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,8 +34,10 @@ struct GateRules {
 [[nodiscard]] GateResult judge_suite(const std::string& records, const std::string& budgets,
                                      const GateRules& rules);
 
+// Platforms, by directory, whose first budgets one command writes: their rows need no reason of their own.
+using NewPlatforms = std::set<std::filesystem::path>;
 // Writes what was measured.  Prints what would become looser.  Throws a Failure where nothing may be written.
 [[nodiscard]] Verdict update_suite(const std::string& records, const std::string& budgets,
-                                   const GateRules& rules);
+                                   const GateRules& rules, NewPlatforms& made);
 
 }  // namespace ulpgate::app

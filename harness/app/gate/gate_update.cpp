@@ -100,9 +100,11 @@ Verdict update_base(const Files& files, const std::string& records, const std::s
 // puts them over what the platform has already.
 template <class Files, class RowsOf>
 Verdict update_platform(const Files& files, const std::string& budgets, const PlatformBudgets& platform,
-                        const GateRules& rules, RowsOf rows_of) {
+                        const GateRules& rules, NewPlatforms& made, RowsOf rows_of) {
   const auto held = read_held(files, budgets, platform);
-  const bool known = platform.match == PlatformBudgets::Match::exact;
+  const auto of_platform = platform.root / platform.here.key();
+  if (platform.match != PlatformBudgets::Match::exact) made.insert(of_platform);
+  const bool known = !made.contains(of_platform);
   // A first run needs no reason of its own; later ones would loosen what was known.
   const std::string reason = !rules.reason.empty() ? rules.reason
                              : known               ? ""
@@ -125,7 +127,8 @@ Verdict update_platform(const Files& files, const std::string& budgets, const Pl
   return Standing::pass;
 }
 
-Verdict update_samples(const std::string& records, const std::string& budgets, const GateRules& rules) {
+Verdict update_samples(const std::string& records, const std::string& budgets, const GateRules& rules,
+                       NewPlatforms& made) {
   const RecordSet set = read_records(records);
   if (set.records.empty()) throw Failure(Standing::nothing_measured, fmt::format("{}: no records", records));
   want_complete(budgets, records, set);
@@ -140,7 +143,7 @@ Verdict update_samples(const std::string& records, const std::string& budgets, c
   for (auto& [token, type] : measured) type.machine = deciding_facts(set.context);
   const SampleFiles files;
   if (rules.platform == "auto" && platform && platform->match != PlatformBudgets::Match::base) {
-    return update_platform(files, budgets, *platform, rules,
+    return update_platform(files, budgets, *platform, rules, made,
                            [&](const Budgets& held, const std::string& reason) {
                              return platform_rows(held, measured, set.records, reason);
                            });
@@ -149,7 +152,8 @@ Verdict update_samples(const std::string& records, const std::string& budgets, c
                      [&](Budgets& all) { return update_budgets(all, measured, rules.reason); });
 }
 
-Verdict update_figures(const std::string& records, const std::string& budgets, const GateRules& rules) {
+Verdict update_figures(const std::string& records, const std::string& budgets, const GateRules& rules,
+                       NewPlatforms& made) {
   if (!rules.seeds.empty())
     throw Failure(Standing::bad_input,
                   fmt::format("{}: --seeds is for samples, which it has none of", records));
@@ -158,7 +162,7 @@ Verdict update_figures(const std::string& records, const std::string& budgets, c
   const auto platform = platform_for(records, budgets, measured.context, rules);
   const FigureFiles files{measured.of};
   if (rules.platform == "auto" && platform && platform->match != PlatformBudgets::Match::base) {
-    return update_platform(files, budgets, *platform, rules,
+    return update_platform(files, budgets, *platform, rules, made,
                            [&](const FigureBudgets& held, const std::string& reason) {
                              return platform_rows(held, measured.rows, reason);
                            });
@@ -170,9 +174,10 @@ Verdict update_figures(const std::string& records, const std::string& budgets, c
 
 }  // namespace
 
-Verdict update_suite(const std::string& records, const std::string& budgets, const GateRules& rules) {
-  return has_measured_rows(records) ? update_figures(records, budgets, rules)
-                                    : update_samples(records, budgets, rules);
+Verdict update_suite(const std::string& records, const std::string& budgets, const GateRules& rules,
+                     NewPlatforms& made) {
+  return has_measured_rows(records) ? update_figures(records, budgets, rules, made)
+                                    : update_samples(records, budgets, rules, made);
 }
 
 }  // namespace ulpgate::app

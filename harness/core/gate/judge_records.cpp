@@ -227,8 +227,7 @@ class Judge {
     const auto [known, first] = other_results_.try_emplace({r.type, row_}, findings_.size());
     if (first) {
       add(FindingKind::other_results, r,
-          "its results are not those that the budget was made of (--update where that is meant), in " +
-              r.stratum);
+          "not the results that the budget was made of (--update where that is meant), in " + r.stratum);
     } else {
       findings_[known->second].message += ", " + r.stratum;
     }
@@ -299,6 +298,8 @@ class Judge {
     if (part && budget.samples.contains(r.stratum)) judge_tail(r, budget);
     for (const auto& column : limit_columns()) {
       if (column.bounds == nullptr) continue;
+      // More points meet what no seed of the budget's size did; the error has its row's largest bound.
+      if (column.limits == &Budget::over_condition && s.samples > then) continue;
       // Maxima of some of the budget's points are no larger than of all.
       const auto& bounds = budget.*(part ? column.limits : column.bounds);
       const auto bound = bounds.find(r.stratum);

@@ -106,9 +106,7 @@ class SplittingTheory final : public StabilityTheory {
 };
 
 std::vector<ode::Substep<Wide>> kicks_and_drifts(const ode::CompositionRow& row) {
-  const std::vector<Wide> parameters =
-      row.published.empty() ? std::vector<Wide>{} : ode::solve_composition<Wide>(row);
-  return ode::substeps<Wide>(row.kind, parameters);
+  return ode::substeps<Wide>(row.kind, ode::composition_parameters<Wide>(row));
 }
 
 class PolynomialTheory final : public StabilityTheory {

@@ -55,8 +55,7 @@ template <RealType Real>
   const CompositionRow* row = find_composition(name);
   if (row == nullptr) throw std::invalid_argument("no composition method '" + std::string(name) + "'");
   using Wide = Guarded<Real>;
-  const std::vector<Wide> parameters =
-      row->published.empty() ? std::vector<Wide>{} : solve_composition<Wide>(*row);
+  const std::vector<Wide> parameters = composition_parameters<Wide>(*row);
   std::vector<Substep<Real>> sequence;
   for (const Substep<Wide>& s : substeps(row->kind, parameters)) {
     sequence.push_back({s.flow, rounded<Real>(s.fraction)});
