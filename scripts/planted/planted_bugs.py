@@ -122,7 +122,10 @@ def gated(size, program, tree, out, environment):
     outputs = ["--sarif", sarif]
     if size.budgets:
         words = [program, *size.words, "--out", out / "records", "--overwrite"]
-        run(words, tree, environment, codes=(0, 1))
+        done = run(words, tree, environment, codes=range(256))
+        if done.returncode not in (0, 1):
+            (out / "gate.txt").write_text(done.stdout + done.stderr)
+            return done.returncode, None
         gate = [program, "gate", out / "records", "--budgets", tree / size.budgets]
         done = run([*gate, "--only-measured", *outputs], tree, codes=range(256))
     else:

@@ -246,3 +246,26 @@ def test_digests_are_asked_for_where_they_were_taken(other):
     own.write_text(own.read_text().replace(digest, 'digest = "0123456789abcdef"'))
     code, out, _ = gate(other, **where)
     assert code == 1 and "OTHER RESULTS" in out
+
+
+def test_first_budgets_of_many_directories_need_no_reason(other):
+    """The first directory makes the platform; those after it in the same command are of a first run as well."""
+    tighten(other / "budgets/float.toml")
+    scene = other / "budgets/scenes/run/pendulum3.toml"
+    digest = 'digest = "0123456789abcdef"'
+    scene.write_text(re.sub('digest = ".*"', digest, scene.read_text()))
+    words = [
+        *("gate", other / "math", "--budgets", other / "budgets"),
+        *(other / "scene", "--budgets", other / "budgets/scenes/run"),
+    ]
+    code, out, err = run(*words, "--update", "--platform", "auto")
+    assert code == 0, out + err
+    assert "of the platform sin float" in out and "pendulum3" in out
+    assert run(*words)[0] == 0
+    # From then on the platform is known.
+    own = other / "budgets/platforms/glibc-2.99_boost-1.99"
+    for file in (own / "float.toml", own / "scenes/run/pendulum3.toml"):
+        assert 'reason = "as measured with' in file.read_text()
+    (own / "scenes/run/pendulum3.toml").unlink()
+    code, out, err = run(*words, "--update", "--platform", "auto")
+    assert code == 1 and "WOULD LOOSEN pendulum3" in out
