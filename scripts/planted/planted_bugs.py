@@ -53,6 +53,7 @@ class Bug:
     file: str = ""
     before: str = ""
     after: str = ""
+    healed: bool = False
     outcomes: list = field(default_factory=list)
 
 
