@@ -53,7 +53,6 @@ class Bug:
     file: str = ""
     before: str = ""
     after: str = ""
-    healed: bool = False
     outcomes: list = field(default_factory=list)
 
 

@@ -19,8 +19,7 @@ TYPES, BUGS = read_bugs()
 @pytest.mark.parametrize("bug", BUGS, ids=lambda b: b.name)
 def test_every_bug_can_be_planted(bug):
     assert bool(bug.preload) != bool(bug.file)
-    found = any(size.found for size in bug.sizes)
-    assert found != bug.healed, "a bug that nothing finds"
+    assert any(size.found for size in bug.sizes), "a bug that nothing finds"
     if bug.file:
         text = (ROOT / bug.file).read_text()
         assert planted(text, bug) != text
