@@ -209,7 +209,9 @@ def test_a_record_that_was_altered_is_made_again(through, tmp_path):
     seal = out / "done/math/lists.json"
     seal.write_text(seal.read_text()[:50])
     done = night(out, "--resume")
-    assert "kernels/large_float: pass" in done.stderr and "math/lists: pass" in done.stderr
+    assert (
+        "kernels/large_float: pass" in done.stderr and "math/lists: pass" in done.stderr
+    )
     assert "search/float_sin: pass" not in done.stderr
     assert records(out) == wanted
 
@@ -225,7 +227,10 @@ def test_a_crashing_program_is_tried_twice_and_named(tmp_path):
     assert done.returncode == 4
     facts = status(out)
     assert facts["state"] == "some jobs failed"
-    assert [f["name"] for f in facts["failed"]] == ["kernels/budgets", "kernels/large_float"]
+    assert [f["name"] for f in facts["failed"]] == [
+        "kernels/budgets",
+        "kernels/large_float",
+    ]
     assert done.stderr.count("kernels/large_float: exit 4") == 2
     assert len(facts["done"]) == facts["jobs"] - 2
 
