@@ -18,10 +18,16 @@ struct ContactForce {
   Real dissipation{0};  // J, lost to friction in this step
 };
 
-// F = Fn n + Fs + viscous, on body 2 (N).
+// The part across the normal, on body 2 (N).
+template <RealType Real>
+[[nodiscard]] Vec3<Real> tangential_force(const ContactForce<Real>& f) {
+  return f.shear + f.viscous;
+}
+
+// F = Fn n + (Fs + viscous), on body 2 (N).
 template <RealType Real>
 [[nodiscard]] Vec3<Real> total_force(const ContactForce<Real>& f, const Vec3<Real>& normal) {
-  return (f.normal * normal + f.shear) + f.viscous;
+  return f.normal * normal + tangential_force(f);
 }
 
 // Cundall & Strack, Geotechnique 29 (1979) 47: linear normal spring, incremental shear spring, Coulomb cone.

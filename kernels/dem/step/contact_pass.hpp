@@ -300,9 +300,8 @@ struct ContactPass {
     }
     contacts.shear[p] = f.shear;
     contacts.normal[p] = normal;
-    const Vec3<Real> tangential_force = f.shear + f.viscous;
-    out.force = f.normal * normal + tangential_force;
-    if (parts.rotation) set_torques(i1, i2, flat, overlap, normal, tangential_force, out);
+    out.force = total_force(f, normal);
+    if (parts.rotation) set_torques(i1, i2, flat, overlap, normal, tangential_force(f), out);
     if (parts.energy) {
       account(p, physics, overlap, f.normal, shear, f, normal, velocity,
               contact_velocity(i1, i2, flat, overlap, normal));
