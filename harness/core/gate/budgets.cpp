@@ -194,8 +194,9 @@ std::vector<Raise> update_budgets(Budgets& present, const Budgets& measured, con
     mine.samples = type.samples;
     mine.seed = type.seed;
     // Limits of a part measured elsewhere do not move the others.
-    const bool whole =
-        std::ranges::all_of(mine.rows, [&](const auto& row) { return type.rows.contains(row.first); });
+    // By name: clang 14 captures no structured bindings.
+    const bool whole = std::ranges::all_of(
+        mine.rows, [&rows = type.rows](const auto& row) { return rows.contains(row.first); });
     if (whole) mine.machine = type.machine;
     for (const auto& [row, budget] : type.rows) {
       Budget& old = mine.rows[row];
