@@ -29,6 +29,7 @@ std::vector<OtherCode> other_codes(const std::vector<RowRecord>& records, const 
       rows[{r.type, then, r.implementation}].insert(budget->first);
   }
   std::vector<OtherCode> found;
+  found.reserve(rows.size());
   for (const auto& [key, names] : rows) found.push_back({key[0], key[1], key[2], names.size()});
   return found;
 }
@@ -235,6 +236,7 @@ std::vector<Raise> tighten_budgets(Budgets& present, const std::vector<RowRecord
     }
   }
   std::vector<Raise> changes;
+  changes.reserve(lowered.size());
   for (const auto& [key, what] : lowered)
     changes.push_back({key.first, key.second, what.substr(1, what.size() - 2)});
   return changes;
