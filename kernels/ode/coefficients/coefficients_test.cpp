@@ -55,10 +55,11 @@ TEST(Compositions, MeetTheirOrderConditionsTo200Digits) {
 TEST(Compositions, KeepThePublishedDigits) {
   for (const CompositionRow& row : composition_rows()) {
     if (row.published.empty()) continue;
-    const std::vector<Guarded<Reference>> solved = solve_composition<Guarded<Reference>>(row);
-    for (std::size_t i = 0; i < solved.size(); ++i) {
+    const auto solved = solve_composition<Guarded<Reference>>(row);
+    ASSERT_TRUE(solved) << row.name;
+    for (std::size_t i = 0; i < solved->size(); ++i) {
       // The last digits in print are wrong in solution D of Yoshida's table 2, by up to 2.8e-13.
-      EXPECT_LT(abs(solved[i] - real<Guarded<Reference>>(row.published[i])),
+      EXPECT_LT(abs((*solved)[i] - real<Guarded<Reference>>(row.published[i])),
                 real<Guarded<Reference>>("3e-13"))
           << row.name << " parameter " << i;
     }
@@ -97,8 +98,6 @@ TEST(Compositions, DigitsThatLeadNowhereAreRunAsTheyStand) {
   const CompositionRow row{"wrong", 4, 3, CompositionKind::drift_first, digits, "none"};
   EXPECT_FALSE(solve_composition<MpfrReal<62>>(row));
   EXPECT_EQ(composition_parameters<double>(row), (std::vector<double>{1.3, -1.6}));
-  for (const CompositionRow& known : composition_rows())
-    if (!known.published.empty()) EXPECT_TRUE(solve_composition<MpfrReal<62>>(known)) << known.name;
   EXPECT_THROW((void)splitting<double>("nothing"), std::invalid_argument);
 }
 
