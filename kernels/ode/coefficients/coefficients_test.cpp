@@ -15,6 +15,7 @@ using Reference = MpfrReal<248>;  // RealHP<4, mpfr62>
 // 1/n!: the largest over the Lyndon words of one length.  Another algebra than the one that was solved.
 Reference largest_miss(const std::vector<Substep<Reference>>& sequence, int length) {
   std::vector<Factor<Reference>> factors;
+  factors.reserve(sequence.size());
   for (const auto& s : sequence) factors.push_back({s.flow, s.fraction});
   const std::vector<int> letters = {kDrift, kKick};
   const std::vector<int> grades = {1, 1};
