@@ -79,6 +79,26 @@ TEST(KernelBudgets, OverConditionFallsFreelyAndRisesWithAReasonOnly) {
   EXPECT_EQ(limit_over_condition(budgets), 0.65);
 }
 
+// A thousand times the points meet what no seed of the budget's size did.
+TEST(KernelBudgets, TheBoundOverConditionIsOfRunsThatAreNoLarger) {
+  auto budgets = budgets_of({kernel_record(2, 0.7)});
+  Budget& budget = budgets.at("double").rows.at("sphere_sphere");
+  budget.bound_ulp["uniform"] = 4;
+  budget.bound_over_condition["uniform"] = 0.8;
+  RowRecord other = kernel_record(2, 0.9);
+  other.seed = 2;
+  const auto judged = [&] {
+    return kinds(judge_records({other}, budgets, MissingRecords::ignore, {true, 1}));
+  };
+  EXPECT_EQ(judged(), Kinds{FindingKind::regression});
+  other.planned = 20;
+  for (std::uint64_t k = 10; k < 20; ++k) other.summary.add({Outcome::finite, {2}, 0, true}, k);
+  EXPECT_EQ(judged(), Kinds{});
+  other.summary.add({Outcome::finite, {5}, 0, true}, 20);
+  other.planned = 21;
+  EXPECT_FALSE(judged().empty()) << "the error itself is held";
+}
+
 TEST(KernelBudgets, FunctionsHaveTheLimitOverConditionToo) {
   RowRecord function = kernel_record(2, 0.7);
   function.subject_class = "real";
