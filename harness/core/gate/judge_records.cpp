@@ -299,7 +299,7 @@ class Judge {
     for (const auto& column : limit_columns()) {
       if (column.bounds == nullptr) continue;
       // More points meet what no seed of the budget's size did; the error has its row's largest bound.
-      if (column.limits == &Budget::over_condition && s.samples > then) continue;
+      if (!kernels_ && column.limits == &Budget::over_condition && s.samples > then) continue;
       // Maxima of some of the budget's points are no larger than of all.
       const auto& bounds = budget.*(part ? column.limits : column.bounds);
       const auto bound = bounds.find(r.stratum);

@@ -79,8 +79,9 @@ TEST(KernelBudgets, OverConditionFallsFreelyAndRisesWithAReasonOnly) {
   EXPECT_EQ(limit_over_condition(budgets), 0.65);
 }
 
-// A thousand times the points meet what no seed of the budget's size did.
-TEST(KernelBudgets, TheBoundOverConditionIsOfRunsThatAreNoLarger) {
+// A thousand times the points meet what no seed of the budget's size did.  Of kernels it is another error,
+// which no bound in ULP holds.
+TEST(KernelBudgets, OfFunctionsTheBoundOverConditionIsOfRunsThatAreNoLarger) {
   auto budgets = budgets_of({kernel_record(2, 0.7)});
   Budget& budget = budgets.at("double").rows.at("sphere_sphere");
   budget.bound_ulp["uniform"] = 4;
@@ -93,6 +94,8 @@ TEST(KernelBudgets, TheBoundOverConditionIsOfRunsThatAreNoLarger) {
   EXPECT_EQ(judged(), Kinds{FindingKind::regression});
   other.planned = 20;
   for (std::uint64_t k = 10; k < 20; ++k) other.summary.add({Outcome::finite, {2}, 0, true}, k);
+  EXPECT_EQ(judged(), Kinds{FindingKind::regression}) << "of a kernel";
+  other.subject_class = "real";
   EXPECT_EQ(judged(), Kinds{});
   other.summary.add({Outcome::finite, {5}, 0, true}, 20);
   other.planned = 21;
