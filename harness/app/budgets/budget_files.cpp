@@ -99,7 +99,7 @@ std::map<std::string, std::string> parse_digests(const std::string& file, const 
   for (const auto& [stratum, value] : table_of(file, node, name, "digest", "stratum = \"0123abcd\"")) {
     const std::string of = stratum_of(file, value, name, "digest", stratum.str());
     const auto digest = value.value_exact<std::string>();
-    if (!digest || digest->size() != 8 || digest->find_first_not_of("0123456789abcdef") != std::string::npos)
+    if (!digest || !is_digest(*digest, 8))
       bad(file, value, fmt::format("[{}] digest of {} must be eight hexadecimal digits", name, of));
     digests[of] = *digest;
   }

@@ -39,6 +39,8 @@ FigureBudget parse_row(RowKind of, const toml::table& row, std::string_view name
       b.reason = *node.value<std::string>();
     } else if (key == "digest" && node.is_string()) {
       b.digest = *node.value<std::string>();
+      if (!is_digest(b.digest, 16))
+        bad(at(node), fmt::format("['{}'] digest must be sixteen hexadecimal digits", name));
     } else if (key == "outcome" && node.is_string()) {
       b.outcome = *node.value<std::string>();
     } else {

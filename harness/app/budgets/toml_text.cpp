@@ -67,4 +67,8 @@ std::filesystem::path toml_file(const std::filesystem::path& directory, const st
   return directory / (name + ".toml");
 }
 
+bool is_digest(const std::string& text, std::size_t digits) {
+  return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 }  // namespace ulpgate::app
