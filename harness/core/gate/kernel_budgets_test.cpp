@@ -31,6 +31,7 @@ Budgets budgets_of(const std::vector<RowRecord>& records) {
 
 std::vector<FindingKind> kinds(const std::vector<GateFinding>& findings) {
   std::vector<FindingKind> out;
+  out.reserve(findings.size());
   for (const auto& f : findings) out.push_back(f.kind);
   return out;
 }
