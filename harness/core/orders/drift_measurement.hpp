@@ -3,7 +3,7 @@
 
 #include "harness/core/orders/order_engine.hpp"
 #include "harness/core/orders/piece_text.hpp"
-#include "kernels/ode/integrators/integrate.hpp"
+#include "kernels/ode/integrators/make_stepper.hpp"
 #include "kernels/ode/problems/problems.hpp"
 
 namespace ulpgate {

@@ -6,6 +6,7 @@
 
 #include "harness/core/orders/drift_measurement.hpp"
 #include "harness/core/orders/ladder_measurement.hpp"
+#include "kernels/ode/integrators/splitting.hpp"
 
 namespace ulpgate {
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "harness/core/step_limits/stability_engine.hpp"
-#include "kernels/ode/integrators/integrate.hpp"
+#include "kernels/ode/integrators/make_stepper.hpp"
 
 namespace ulpgate {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "harness/core/trajectories/trajectory_engine.hpp"
-#include "kernels/ode/integrators/integrate.hpp"
+#include "kernels/ode/integrators/make_stepper.hpp"
 #include "kernels/ode/problems/initial_value_cases.hpp"
 #include "reference/text/text.hpp"
 
