@@ -1,5 +1,6 @@
 // Measured orders of all integrators in mpfr62.
 #include "kernels/ode/testing/measured_order_suite.hpp"
+#include "reference/text/literal.hpp"
 
 namespace ulpgate::ode::testing {
 namespace {
