@@ -91,9 +91,9 @@ def commands():
             yield f"{GITLAB.name}: {name}", line
 
 
-def test_there_are_both_pipelines_and_a_merge_a_sanitizer_and_a_night_in_each():
+def test_each_pipeline_has_a_merge_a_sanitizer_a_night_and_the_fuzz_targets():
     github = {job for file in WORKFLOWS for job in read(file)["jobs"]}
-    assert github == set(gitlab_jobs()) == {"gate", "asan", "nightly"}
+    assert github == set(gitlab_jobs()) == {"gate", "asan", "nightly", "fuzz"}
 
 
 @pytest.mark.parametrize("file", [*WORKFLOWS, GITLAB], ids=lambda f: f.name)
@@ -132,7 +132,7 @@ def test_a_step_calls_a_script_that_is_here(where, command):
 @pytest.mark.parametrize("where, command", list(commands()))
 def test_the_options_of_a_step_are_those_of_its_script(where, command):
     for part in re.split(r"\s*(?:&&|\|\|)\s*", command):
-        if not part.startswith(("ci/gate", "ci/nightly")):
+        if not part.startswith(("ci/gate", "ci/nightly", "ci/fuzz")):
             continue
         script = (ROOT / part.split()[0]).read_text()
         if "nightly" in part.split()[0]:

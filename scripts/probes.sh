@@ -49,6 +49,14 @@ compiles() { # C++ on standard input; further words are the compiler's
 has_compiler() {
   compiles -fsyntax-only <<<$'#include <ranges>\n#include <span>\n#include <mutex>\nstatic_assert(__cpp_lib_ranges > 0);'
 }
+has_fuzzer() {
+  local program code=0
+  program="$(mktemp)"
+  clang++ -fsanitize=fuzzer,address -x c++ - -o "$program" \
+    <<<'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }' || code=1
+  rm -f "$program"
+  return "$code"
+}
 has_header() { compiles -fsyntax-only <<<"#include <$1>"; }
 has_library() { # NAME HEADER
   local program code=0
