@@ -17,12 +17,8 @@ namespace ulpgate::app {
 
 namespace {
 
-constexpr const char* done_file = "done.txt";
-constexpr const char* log_file = "log.txt";
 // The log is merged into done.txt when it has grown to this.
 constexpr std::size_t greatest_log = std::size_t{32} << 20U;
-// What a power failure may lose, beyond what a killed process may.
-constexpr auto sync_interval = std::chrono::seconds(5);
 
 std::string header_line(const RunIdentity& identity) {
   return with_checksum("h " + identity_text(identity));

@@ -1,6 +1,7 @@
-// The lines of a checkpoint's files: checksums, units and rows as text.
+// The lines of a checkpoint's files, and their names: checksums, units and rows as text.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,12 @@
 #include "harness/app/store/checkpoint.hpp"
 
 namespace ulpgate::app {
+
+// Both kinds of checkpoint keep what is done, and a log of what was done since.
+inline constexpr const char* done_file = "done.txt";
+inline constexpr const char* log_file = "log.txt";
+// What a power failure may lose, beyond what a killed process may.
+inline constexpr auto sync_interval = std::chrono::seconds(5);
 
 // "<16 hexadecimal digits of FNV-1a> payload\n".
 [[nodiscard]] std::string with_checksum(const std::string& payload);

@@ -17,12 +17,6 @@ namespace ulpgate::app {
 
 namespace {
 
-constexpr const char* log_file = "log.txt";
-// Of a Checkpoint; another verb's partial run may be here.
-constexpr const char* done_file = "done.txt";
-// What a power failure may lose, beyond what a killed process may.
-constexpr auto sync_interval = std::chrono::seconds(5);
-
 std::string line_of(const PieceLog::Piece& piece) {
   return with_checksum(fmt::format("p {} {:x} {}", piece.measurement,
                                    std::bit_cast<std::uint64_t>(piece.seconds), piece.text));

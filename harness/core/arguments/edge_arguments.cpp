@@ -8,8 +8,6 @@ namespace ulpgate {
 
 namespace {
 
-constexpr auto nearest = MPFR_RNDN;
-
 bool is_index(DomainMap m) {
   return m == DomainMap::UINT || m == DomainMap::INT;
 }
@@ -46,8 +44,8 @@ std::vector<MpfrValue> edge_values(const FunctionInfo& f, std::size_t argument, 
   }
   if (angle) {
     for (const long exponent : {range.least, -60L, -1L, 0L, 1L}) out.add_scaled(1, exponent);
-    mpfr_const_pi(v, nearest);
-    if (map == DomainMap::MODPI) mpfr_div_2ui(v, v, 1, nearest);
+    mpfr_const_pi(v, MPFR_RNDN);
+    if (map == DomainMap::MODPI) mpfr_div_2ui(v, v, 1, MPFR_RNDN);
     out.add(v);
     return std::move(out.values);
   }
@@ -71,7 +69,7 @@ std::vector<MpfrValue> edge_values(const FunctionInfo& f, std::size_t argument, 
   }
   out.add_around_scaled(1, range.least, 0);
   if (format.subnormals) out.add_around_scaled(1, format.exponent_min, 1);
-  mpfr_set_ui_2exp(v, 1, range.greatest, nearest);
+  mpfr_set_ui_2exp(v, 1, range.greatest, MPFR_RNDN);
   out.add_around(v, 1);
   mpfr_set_inf(v, 1);
   step_in_format(v, -1, format);

@@ -9,15 +9,13 @@ namespace ulpgate {
 
 namespace {
 
-constexpr auto nearest = MPFR_RNDN;
-
 // 1 +- 2^-j and 2 +- 2^-j for every j of the format, and numbers a few steps from them.
 void add_near_one(ArgumentValues& out, const FloatFormat& format, long centre) {
   MpfrValue v(format.precision + 2);
   for (long j = 1; j < format.precision + 1; ++j) {
     for (const int sign : {1, -1}) {
-      mpfr_set_si_2exp(v, sign, -j, nearest);
-      mpfr_add_si(v, v, centre, nearest);
+      mpfr_set_si_2exp(v, sign, -j, MPFR_RNDN);
+      mpfr_add_si(v, v, centre, MPFR_RNDN);
       out.add(v);
     }
   }
@@ -34,16 +32,16 @@ void add_crossing(ArgumentValues& out, const FunctionInfo& f, const FloatFormat&
   y.emplace_back(64);
   MpfrValue a(bits);
   MpfrValue b(bits);
-  mpfr_set_d(a, low, nearest);
-  mpfr_set_d(b, high, nearest);
+  mpfr_set_d(a, low, MPFR_RNDN);
+  mpfr_set_d(b, high, MPFR_RNDN);
   for (long i = 0; i < bits + 40; ++i) {
-    mpfr_add(x[0], a, b, nearest);
-    mpfr_div_2ui(x[0], x[0], 1, nearest);
+    mpfr_add(x[0], a, b, MPFR_RNDN);
+    mpfr_div_2ui(x[0], x[0], 1, MPFR_RNDN);
     exact_value(f, x, y);
     const bool beyond = mpfr_zero_p(y[0])  ? !increasing
                         : mpfr_inf_p(y[0]) ? increasing
                                            : (binade(y[0]) >= exponent) == increasing;
-    mpfr_set(beyond ? b : a, x[0], nearest);
+    mpfr_set(beyond ? b : a, x[0], MPFR_RNDN);
   }
   out.add_around(b, 3);
 }
@@ -77,8 +75,8 @@ void add_gamma(ArgumentValues& out, const FunctionInfo& f, const FloatFormat& fo
     for (long j = 1; j < format.precision; j += 3) {
       MpfrValue v(format.precision + 8);
       for (const int sign : {1, -1}) {
-        mpfr_set_si_2exp(v, sign, -j, nearest);
-        mpfr_sub_si(v, v, n, nearest);
+        mpfr_set_si_2exp(v, sign, -j, MPFR_RNDN);
+        mpfr_sub_si(v, v, n, MPFR_RNDN);
         out.add(v);
       }
     }
@@ -94,31 +92,31 @@ ArgumentList bessel_zeros(const FunctionInfo& f, const FloatFormat& format) {
     std::vector<MpfrValue> at;
     at.emplace_back(64);
     at.emplace_back(bits);
-    mpfr_set_si(at[0], n, nearest);
+    mpfr_set_si(at[0], n, MPFR_RNDN);
     std::vector<MpfrValue> y;
     y.emplace_back(bits);
     MpfrValue x0(bits), x1(bits), y0(bits), y1(bits), t(bits);
     const auto evaluate = [&](mpfr_srcptr x, mpfr_ptr value) {
-      mpfr_set(at[1], x, nearest);
+      mpfr_set(at[1], x, MPFR_RNDN);
       exact_value(f, at, y);
-      mpfr_set(value, y[0], nearest);
+      mpfr_set(value, y[0], MPFR_RNDN);
     };
-    mpfr_set_d(x0, 0.5, nearest);
+    mpfr_set_d(x0, 0.5, MPFR_RNDN);
     evaluate(x0, y0);
     for (int step = 2; step <= 200; step += 1) {
-      mpfr_set_d(x1, step * 0.5, nearest);
+      mpfr_set_d(x1, step * 0.5, MPFR_RNDN);
       evaluate(x1, y1);
       if (mpfr_sgn(y0.get()) * mpfr_sgn(y1.get()) < 0) {
         MpfrValue u0 = copy(x0), u1 = copy(x1), v0 = copy(y0), v1 = copy(y1);
         for (int i = 0; i < 14 && !mpfr_zero_p(v1); ++i) {
-          mpfr_sub(t, v1, v0, nearest);
+          mpfr_sub(t, v1, v0, MPFR_RNDN);
           if (mpfr_zero_p(t)) break;
-          mpfr_sub(u0, u1, u0, nearest);
-          mpfr_div(t, u0, t, nearest);
-          mpfr_mul(t, t, v1, nearest);
-          mpfr_set(u0, u1, nearest);
-          mpfr_set(v0, v1, nearest);
-          mpfr_sub(u1, u1, t, nearest);
+          mpfr_sub(u0, u1, u0, MPFR_RNDN);
+          mpfr_div(t, u0, t, MPFR_RNDN);
+          mpfr_mul(t, t, v1, MPFR_RNDN);
+          mpfr_set(u0, u1, MPFR_RNDN);
+          mpfr_set(v0, v1, MPFR_RNDN);
+          mpfr_sub(u1, u1, t, MPFR_RNDN);
           evaluate(u1, v1);
         }
         ArgumentValues near(format);
@@ -126,7 +124,7 @@ ArgumentList bessel_zeros(const FunctionInfo& f, const FloatFormat& format) {
         for (auto& x : near.values) {
           std::vector<MpfrValue> point;
           point.emplace_back(64);
-          mpfr_set_si(point[0], n, nearest);
+          mpfr_set_si(point[0], n, MPFR_RNDN);
           point.push_back(std::move(x));
           list.push_back(std::move(point));
         }
@@ -154,12 +152,12 @@ ArgumentList power_pairs(const FloatFormat& format) {
   const long emax_bits = std::min(format.exponent_max, 16383L);
   for (long j = 1; j < format.precision; j += std::max(1L, format.precision / 50)) {
     for (const int sign : {1, -1}) {
-      mpfr_set_si_2exp(x, sign, -j, nearest);
-      mpfr_add_ui(x, x, 1, nearest);
+      mpfr_set_si_2exp(x, sign, -j, MPFR_RNDN);
+      mpfr_add_ui(x, x, 1, MPFR_RNDN);
       for (long e = -3; (1L << std::max(0L, e)) <= emax_bits; e += 2) {
-        mpfr_set_si_2exp(y, 3, j + e - 2, nearest);
+        mpfr_set_si_2exp(y, 3, j + e - 2, MPFR_RNDN);
         add(x, y);
-        mpfr_neg(y, y, nearest);
+        mpfr_neg(y, y, MPFR_RNDN);
         add(x, y);
       }
     }
@@ -167,11 +165,11 @@ ArgumentList power_pairs(const FloatFormat& format) {
   // y = E / log2 x rounded, for the exponents E of over- and underflow.
   for (const long i : {2L, 3L, 5L, 7L, 10L, 11L, 97L, 1009L}) {
     for (const long target : {format.exponent_max + 1, format.exponent_min, format.exponent_least() - 1}) {
-      mpfr_set_si(x, i, nearest);
-      mpfr_log2(y, x, nearest);
-      mpfr_si_div(y, target, y, nearest);
+      mpfr_set_si(x, i, MPFR_RNDN);
+      mpfr_log2(y, x, MPFR_RNDN);
+      mpfr_si_div(y, target, y, MPFR_RNDN);
       MpfrValue rounded(format.precision);
-      mpfr_set(rounded, y, nearest);
+      mpfr_set(rounded, y, MPFR_RNDN);
       for (int s = -2; s <= 2; ++s) {
         MpfrValue v = copy(rounded);
         step_in_format(v, s, format);
@@ -192,9 +190,9 @@ std::vector<MpfrValue> nearest_to_multiples_of_half_pi(const FloatFormat& format
   mpz_inits(two_over_pi, nullptr);
   {
     MpfrValue v(greatest + fraction_bits + 64);
-    mpfr_const_pi(v, nearest);
-    mpfr_ui_div(v, 2, v, nearest);
-    mpfr_mul_2si(v, v, greatest + fraction_bits, nearest);
+    mpfr_const_pi(v, MPFR_RNDN);
+    mpfr_ui_div(v, 2, v, MPFR_RNDN);
+    mpfr_mul_2si(v, v, greatest + fraction_bits, MPFR_RNDN);
     mpfr_get_z(two_over_pi, v, MPFR_RNDD);
   }
   mpz_t alpha, a, b, q, r, p0, p1, t;
@@ -225,7 +223,7 @@ std::vector<MpfrValue> nearest_to_multiples_of_half_pi(const FloatFormat& format
       // The largest multiple of the denominator by a power of two that stays in p bits lies in this binade.
       const long spare = p - static_cast<long>(mpz_sizeinbase(m, 2));
       MpfrValue v(p);
-      mpfr_set_z_2exp(v, m, e - p + 1 + spare, nearest);
+      mpfr_set_z_2exp(v, m, e - p + 1 + spare, MPFR_RNDN);
       out.add(v);
     }
     // Between the last two denominators lie the intermediate fractions: the one that fills p bits.
@@ -236,7 +234,7 @@ std::vector<MpfrValue> nearest_to_multiples_of_half_pi(const FloatFormat& format
     mpz_mul(t, q, p1);
     mpz_add(t, t, p0);
     MpfrValue v(p);
-    mpfr_set_z_2exp(v, t, e - p + 1, nearest);
+    mpfr_set_z_2exp(v, t, e - p + 1, MPFR_RNDN);
     out.add(v);
   }
   mpz_clears(two_over_pi, alpha, a, b, q, r, p0, p1, t, nullptr);

@@ -77,7 +77,7 @@ double largest_eigenvalue(const Matrix& m) {
              : Eigen::SelfAdjointEigenSolver<Matrix>(m, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
-double number(const std::string& hexfloat) {
+double from_hexfloat(const std::string& hexfloat) {
   return parse_real<double>(hexfloat);
 }
 
@@ -124,10 +124,10 @@ ContactNetwork network_of(const dem::DemEngine& engine, scenes::ContactLaw law,
                                {n.x(), n.y(), n.z()},
                                wall_of[i] >= 0 ? 0 : engine.radius(i) - half,
                                engine.radius(j) - half,
-                               number(constants[0]) * (hertz ? 1.5 * root : 1),
-                               number(constants[1]) * root,
-                               number(constants[2]),
-                               number(constants[3])});
+                               from_hexfloat(constants[0]) * (hertz ? 1.5 * root : 1),
+                               from_hexfloat(constants[1]) * root,
+                               from_hexfloat(constants[2]),
+                               from_hexfloat(constants[3])});
   }
   return network;
 }

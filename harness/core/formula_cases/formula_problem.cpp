@@ -34,6 +34,12 @@ std::function<FormulaInput(const FloatFormat&)> stated(std::vector<std::string> 
   };
 }
 
+FormulaNumbers sum_truth(const FormulaInput& in) {
+  FormulaNumber sum(0);
+  for (const auto& x : in.x) sum += x;
+  return {sum};
+}
+
 FormulaNumber power_of_two(long exponent) {
   FormulaNumber result;
   mpfr_set_ui_2exp(result.backend().data(), 1, exponent, MPFR_RNDN);

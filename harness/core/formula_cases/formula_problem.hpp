@@ -71,6 +71,8 @@ struct FormulaProblem {
 // Texts of decimal numbers as arguments, the same in every type.
 [[nodiscard]] std::function<FormulaInput(const FloatFormat&)> stated(std::vector<std::string> x, long n = 0);
 [[nodiscard]] FormulaNumber number(const std::string& text);
+// The exact sum of the arguments, as far as FormulaNumber holds it.
+[[nodiscard]] FormulaNumbers sum_truth(const FormulaInput& in);
 // 2^exponent, for exponents of every format.
 [[nodiscard]] FormulaNumber power_of_two(long exponent);
 [[nodiscard]] FormulaNumber largest_of(const FloatFormat& format);

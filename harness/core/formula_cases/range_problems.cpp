@@ -11,12 +11,6 @@ FormulaNumbers norm_truth(const FormulaInput& in) {
   return {FormulaNumber(sqrt(squares))};
 }
 
-FormulaNumbers sum_truth(const FormulaInput& in) {
-  FormulaNumber sum(0);
-  for (const auto& x : in.x) sum += x;
-  return {sum};
-}
-
 FormulaNumbers mean_truth(const FormulaInput& in) {
   return {FormulaNumber(sum_truth(in).front() / static_cast<long>(in.x.size()))};
 }

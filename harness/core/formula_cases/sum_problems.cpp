@@ -5,12 +5,6 @@ namespace ulpgate {
 
 namespace {
 
-FormulaNumbers sum_truth(const FormulaInput& in) {
-  FormulaNumber sum(0);
-  for (const auto& x : in.x) sum += x;
-  return {sum};
-}
-
 // H_n = psi(n + 1) + gamma.
 FormulaNumbers harmonic_truth(const FormulaInput& in) {
   FormulaNumber psi(in.n + 1);
