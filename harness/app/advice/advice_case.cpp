@@ -27,7 +27,7 @@ constexpr int equal_levels = 24;
 constexpr double stiff_growth = 1.78;
 constexpr double smooth_growth = 1.39;
 constexpr int scene_levels = 18;
-constexpr int coarser = 2;
+constexpr int coarser_levels = 2;
 // Truths and references are good to a tenth of the wanted error, in digits of the case two more.
 constexpr double reference_share = 0.1;
 
@@ -158,7 +158,9 @@ class TrajectoryAdvice final : public AdviceCase {
 class SceneAdvice final : public AdviceCase {
  public:
   explicit SceneAdvice(const AdviceOptions& o)
-      : o_(o), ladder_(scene_ladder(o.name, o.overrides, "", o.until, coarser, scene_levels - 1 - coarser)) {
+      : o_(o),
+        ladder_(scene_ladder(o.name, o.overrides, "", o.until, coarser_levels,
+                             scene_levels - 1 - coarser_levels)) {
     ReferenceRequest request;
     request.scene = ladder_.scene;
     // It is made finer until it is good enough, and no finer.

@@ -17,8 +17,8 @@ namespace ulpgate::app {
 namespace {
 
 // Steps of a scene by default: its own times 2 down to its own over 16.
-constexpr int coarser = 1;
-constexpr int finer = 4;
+constexpr int default_coarser = 1;
+constexpr int default_finer = 4;
 
 struct Selected {
   std::vector<std::string> functions, kernels, problems, scenes;
@@ -157,7 +157,8 @@ class JobMaker {
   }
 
   void add_scene(const std::string& name) {
-    const SceneLadder ladder = scene_ladder(name, o_.overrides, dts_.of_scenes, o_.until, coarser, finer);
+    const SceneLadder ladder =
+        scene_ladder(name, o_.overrides, dts_.of_scenes, o_.until, default_coarser, default_finer);
     scene_texts_.push_back(load_scene(name, o_.overrides).text);
     ReferenceRequest request;
     request.scene = ladder.scene;

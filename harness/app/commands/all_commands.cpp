@@ -2,6 +2,7 @@
 #include "harness/app/commands/commands.hpp"
 #include "harness/app/history_commands/history_commands.hpp"
 #include "harness/app/machine/watchdog.hpp"
+#include "harness/app/report_commands/report_commands.hpp"
 #include "harness/app/shell/strict_options.hpp"
 #include "harness/app/stress_commands/stress_commands.hpp"
 
@@ -21,6 +22,7 @@ void add_all_commands(CLI::App& app, Action& action, double& timeout_s) {
   add_merge_command(app, action);
   add_gate_command(app, action);
   add_report_command(app, action);
+  add_compare_output_command(app, action);
   add_history_command(app, action);
   add_compare_command(app, action);
   add_timeout_option(app, timeout_s);

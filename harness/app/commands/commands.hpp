@@ -21,7 +21,6 @@ void add_at_command(CLI::App& app, Action& action);
 void add_search_command(CLI::App& app, Action& action);
 void add_merge_command(CLI::App& app, Action& action);
 void add_gate_command(CLI::App& app, Action& action);
-void add_report_command(CLI::App& app, Action& action);
 
 // Every verb, --timeout (written to `timeout_s`) and strictness.
 void add_all_commands(CLI::App& app, Action& action, double& timeout_s);

@@ -13,7 +13,7 @@ namespace {
 
 // In text and in attributes.  XML 1.0 has no other control characters than tab, line feed and carriage
 // return, and attributes would turn these into blanks.
-std::string escaped(const std::string& text) {
+std::string escaped_xml(const std::string& text) {
   std::string out;
   for (const char c : valid_utf8(text)) {
     switch (c) {
@@ -89,8 +89,8 @@ std::string body_of(const TestCase& t) {
 }
 
 std::string case_text(const TestCase& t) {
-  std::string text =
-      fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\"", escaped(t.of), escaped(t.name));
+  std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\"", escaped_xml(t.of),
+                                 escaped_xml(t.name));
   if (!is_failure(t) && !is_error(t) && t.notes.empty()) return text + "/>\n";
   text += ">\n";
   if (is_failure(t) || is_error(t)) {
@@ -98,13 +98,13 @@ std::string case_text(const TestCase& t) {
     const std::string message = t.failing.empty() ? t.remarks.front() : t.failing.front()->message;
     const std::string type =
         t.failing.empty() ? "no_verdict" : std::string(to_string(t.failing.front()->kind));
-    text += fmt::format("      <{} message=\"{}\" type=\"{}\">{}</{}>\n", element, escaped(message), type,
-                        escaped(body_of(t)), element);
+    text += fmt::format("      <{} message=\"{}\" type=\"{}\">{}</{}>\n", element, escaped_xml(message), type,
+                        escaped_xml(body_of(t)), element);
   }
   if (!t.notes.empty()) {
     std::string notes;
     for (const auto* f : t.notes) notes += "note: " + f->message + "\n";
-    text += fmt::format("      <system-out>{}</system-out>\n", escaped(notes));
+    text += fmt::format("      <system-out>{}</system-out>\n", escaped_xml(notes));
   }
   return text + "    </testcase>\n";
 }
@@ -122,12 +122,12 @@ std::string junit_report(const std::vector<GateResult>& results) {
     const auto wrong = static_cast<std::size_t>(std::ranges::count_if(cases, is_error));
     suites += fmt::format(
         "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"0\" time=\"0\">\n",
-        escaped(r.records_directory), cases.size(), failed, wrong);
+        escaped_xml(r.records_directory), cases.size(), failed, wrong);
     suites += fmt::format(
         "    <properties>\n      <property name=\"budgets\" value=\"{}\"/>\n      <property "
         "name=\"platform\" "
         "value=\"{}\"/>\n    </properties>\n",
-        escaped(r.budgets_directory), escaped(r.platform));
+        escaped_xml(r.budgets_directory), escaped_xml(r.platform));
     for (const auto& t : cases) suites += case_text(t);
     suites += "  </testsuite>\n";
     tests += cases.size();

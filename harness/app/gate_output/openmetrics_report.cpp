@@ -11,7 +11,7 @@ namespace ulpgate::app {
 namespace {
 
 // A label's value: backslash, double quote and line feed are escaped, everything else stands as it is.
-std::string escaped(const std::string& text) {
+std::string escaped_label(const std::string& text) {
   std::string out;
   for (const char c : valid_utf8(text)) {
     if (c == '\n') {
@@ -43,8 +43,9 @@ void add_family(std::string& text, const std::vector<GateResult>& results, const
       if (!(row.*figure)) continue;
       text += fmt::format(
           "{}{{records=\"{}\",kind=\"{}\",type=\"{}\",row=\"{}\",stratum=\"{}\",figure=\"{}\"}} {}\n", name,
-          escaped(r.records_directory), to_string(row.of), escaped(row.type), escaped(row.row),
-          escaped(row.stratum), escaped(row.what), number(*(row.*figure)));
+          escaped_label(r.records_directory), to_string(row.of), escaped_label(row.type),
+          escaped_label(row.row), escaped_label(row.stratum), escaped_label(row.what),
+          number(*(row.*figure)));
     }
   }
 }
@@ -64,22 +65,23 @@ std::string openmetrics_report(const std::vector<GateResult>& results) {
       const auto kind = static_cast<FindingKind>(k);
       const auto n = count_of({r}, kind);
       text += fmt::format("ulpgate_gate_findings{{records=\"{}\",kind=\"{}\"}} {}\n",
-                          escaped(r.records_directory), to_string(kind), n);
+                          escaped_label(r.records_directory), to_string(kind), n);
     }
   }
   text += head("ulpgate_gate_records", "gauge", "Records that were held against budgets.");
   for (const auto& r : results)
-    text +=
-        fmt::format("ulpgate_gate_records{{records=\"{}\"}} {}\n", escaped(r.records_directory), r.records);
+    text += fmt::format("ulpgate_gate_records{{records=\"{}\"}} {}\n", escaped_label(r.records_directory),
+                        r.records);
   text += head("ulpgate_gate_exit_code", "gauge",
                "0 pass, 1 beyond a budget, 2 bad input or another plan, 3 incomplete, 4 crash or I/O.");
   for (const auto& r : results)
-    text += fmt::format("ulpgate_gate_exit_code{{records=\"{}\"}} {}\n", escaped(r.records_directory),
+    text += fmt::format("ulpgate_gate_exit_code{{records=\"{}\"}} {}\n", escaped_label(r.records_directory),
                         exit_code(r.verdict.standing()));
   text += head("ulpgate_gate_budgets", "info", "Which budgets were used.");
   for (const auto& r : results)
     text += fmt::format("ulpgate_gate_budgets_info{{records=\"{}\",budgets=\"{}\",platform=\"{}\"}} 1\n",
-                        escaped(r.records_directory), escaped(r.budgets_directory), escaped(r.platform));
+                        escaped_label(r.records_directory), escaped_label(r.budgets_directory),
+                        escaped_label(r.platform));
   return text + "# EOF\n";
 }
 
