@@ -36,7 +36,7 @@ std::filesystem::path find_report_program(std::string_view name) {
   std::error_code code;
   for (auto d = std::filesystem::read_symlink("/proc/self/exe", code); d.has_relative_path();
        d = d.parent_path()) {
-    if (const auto program = d.parent_path() / "reports" / name; std::filesystem::exists(program))
+    if (auto program = d.parent_path() / "reports" / name; std::filesystem::exists(program))
       return program;
   }
   throw Failure(
@@ -46,6 +46,7 @@ std::filesystem::path find_report_program(std::string_view name) {
 
 int run_program(const std::vector<std::string>& words, bool silent) {
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (const auto& w : words) argv.push_back(const_cast<char*>(w.c_str()));
   argv.push_back(nullptr);
   const pid_t parent = ::getpid();
