@@ -45,6 +45,12 @@ def check(ref, options):
 
 def bless(ref, out, pairs, reason):
     """Copies OUT over REF, each file at once or not at all, and notes why; returns the files that changed."""
+    gone = [str(p.ref) for p in pairs if p.out is None]
+    if gone:
+        raise Problem(
+            BAD_INPUT,
+            f"{gone[0]}: OUT has no such file: remove it from the reference first",
+        )
     changed = []
     files = [(p.ref, p.out) for p in pairs if p.out is not None]
     try:

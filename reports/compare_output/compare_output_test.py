@@ -272,6 +272,21 @@ def test_bless_takes_a_reason_and_keeps_it(files, capfd, tmp_path):
     assert len((tmp_path / "ref.csv.blessed.jsonl").read_text().splitlines()) == 1
 
 
+def test_bless_removes_nothing(tmp_path, capfd):
+    for side, name in (("ref", "a"), ("ref", "b"), ("out", "a")):
+        (tmp_path / side).mkdir(exist_ok=True)
+        (tmp_path / side / f"{name}.csv").write_text(REF)
+    words = [str(tmp_path / "ref"), str(tmp_path / "out"), "--bless", "--reason", "x"]
+    code, _, err = run(capfd, *words)
+    assert code == BAD_INPUT and "b.csv: OUT has no such file" in err
+
+
+def test_a_name_with_a_colon(files, capfd):
+    ref, out = files(ref="i,a:b\n0,1\n1,2\n", out="i,a:b\n0,1\n1,3\n")
+    _, text, _ = run(capfd, ref, out)
+    assert f"REF  2  ({ref}:3)" in text
+
+
 def test_a_mistyped_name_becomes_no_reference(files, capfd, tmp_path):
     (out,) = files(out=REF)
     ref = str(tmp_path / "rfe.csv")

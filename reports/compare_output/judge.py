@@ -34,7 +34,7 @@ class Digits:
 
 @dataclass
 class FieldResult:
-    name: str
+    name: str  # 'points:radius' of a VTK file
     limit: object
     rows: int
     different: int = 0
@@ -50,6 +50,7 @@ class FieldResult:
     error_out: float | None = None
     difference: float | None = None
     worst: int | None = None  # row of the largest difference
+    column: str = ""  # 'radius'
 
     @property
     def failed(self):
@@ -168,6 +169,10 @@ class Comparison:
             or any(f.failed for f in self.fields)
         )
 
+    def add(self, result, column):
+        result.column = column
+        self.fields.append(result)
+
     def first_parting(self):
         """(row, fields) of the first record that is beyond its limit; None where all hold."""
         rows = [int(np.argmax(f.failed_rows)) for f in self.fields if f.failed]
@@ -212,14 +217,14 @@ def compare(name, ref, out, wide, limits, key):
         if other is None:
             c.only_in_ref.append(full)
             continue
-        limit = limits.of(full, column, other)
+        limit = limits.of((full, field_name), column, other)
         rows = matched.rows
         if column.numbers is None or other.numbers is None:
             texts = [
                 [x.shown(int(i)) for i in which]
                 for x, which in ((column, rows[0]), (other, rows[1]))
             ]
-            c.fields.append(judge_texts(full, limit, *texts))
+            c.add(judge_texts(full, limit, *texts), field_name)
             continue
         third = None
         if wide is not None:
@@ -230,15 +235,8 @@ def compare(name, ref, out, wide, limits, key):
                 raise Problem(
                     BAD_INPUT, f"{wide.file}: no numbers of the field '{field_name}'"
                 )
-        c.fields.append(
-            judge_numbers(
-                full,
-                limit,
-                column.numbers.take(rows[0]),
-                other.numbers.take(rows[1]),
-                third,
-            )
-        )
+        numbers = (column.numbers.take(rows[0]), other.numbers.take(rows[1]))
+        c.add(judge_numbers(full, limit, *numbers, third), field_name)
     c.only_in_out = [
         f"{name}:{n}" if name else n for n in out.columns if n not in ref.columns
     ]

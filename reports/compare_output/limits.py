@@ -95,19 +95,19 @@ class Limits:
                     f"'{pattern}' is to be derived, which takes a third output, WIDE",
                 )
 
-    def of(self, name, column, other):
-        """Of REF's column and OUT's: exact for whole numbers and texts, for others derived where there is a WIDE, else exact."""
+    def of(self, names, column, other):
+        """Of REF's column and OUT's, a field by any of its names: exact for whole numbers and texts, for others derived where there is a WIDE, else exact."""
         texts = column.numbers is None or other.numbers is None
         found = None
         for pattern, limit in self.rules:
-            if fnmatch.fnmatchcase(name, pattern):
+            if any(fnmatch.fnmatchcase(name, pattern) for name in names):
                 self.used.add(pattern)
                 found = limit
         if found is not None:
             if texts and found.kind not in ("exact", "noise"):
                 raise Problem(
                     BAD_INPUT,
-                    f"field '{name}' holds texts: exact or noise, not {found.text}",
+                    f"field '{names[0]}' holds texts: exact or noise, not {found.text}",
                 )
             return found
         if texts or (column.whole and other.whole) or not self.with_wide:

@@ -97,7 +97,7 @@ def _of_comparison(c, lines):
         row, fields = parting
         lines.append(f"  first record that parts: {c.row_name(row)}")
         for f in fields:
-            for who, value, where in c.values_at(f.name.rsplit(":", 1)[-1], row):
+            for who, value, where in c.values_at(f.column, row):
                 lines.append(f"    {f.name:<12} {who:<4} {value}  ({where})")
 
 

@@ -155,6 +155,14 @@ def test_a_file_that_is_cut_is_refused_or_lacks_arrays(tmp_path, whole):
         assert last != RADIUS or whole.startswith(b"# vtk") and cut > len(whole) - 16
 
 
+def test_a_limit_by_the_name_of_the_array_alone(tmp_path, capfd):
+    a, b = tmp_path / "a.vtk", tmp_path / "b.vtk"
+    a.write_bytes(legacy_ascii())
+    b.write_bytes(legacy_ascii(radius=[0.5, 0.1251]))
+    assert cli.main([str(a), str(b), "--field", "radius=norm:1e-3"]) == PASS
+    assert cli.main([str(a), str(b), "--field", "points:radius=norm:1e-5"]) == DIFFERENT
+
+
 def test_json_names_points_and_cells(tmp_path, capfd):
     file = tmp_path / "a.vtk"
     file.write_bytes(legacy_ascii())

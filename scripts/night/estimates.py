@@ -1,13 +1,21 @@
 """How long jobs should take: from an earlier night on this machine, or from a pilot of a few samples."""
 
 import json
+import os
 import pathlib
+import signal
 import subprocess
 import tempfile
 import time
 
+from children import end_with_parent
+
 PILOT = {"math": "--samples", "kernels": "--samples", "search": "--evaluations"}
 PILOT_SIZE = {"math": 1000, "kernels": 8, "search": 20000}
+# Strata whose number of points goes with --samples; the others are lists, which a pilot would work through in full.
+DRAWN = {"uniform", "stratified", "binades"}
+# A job whose pilot takes longer is begun without an estimate.
+LONGEST_PILOT_S = 20
 
 
 def earlier(out):
@@ -32,6 +40,10 @@ def pilot_of(job):
     option = PILOT.get(job.words[0])
     if option is None or option not in job.words or "exhaustive" in job.words:
         return None
+    if "--strata" in job.words:
+        strata = job.words[job.words.index("--strata") + 1].split(",")
+        if not DRAWN.issuperset(strata):
+            return None
     at = job.words.index(option) + 1
     size = PILOT_SIZE[job.words[0]]
     words = (*job.words[:at], str(size), *job.words[at + 1 :])
@@ -39,6 +51,26 @@ def pilot_of(job):
         worst = words.index("--worst-cases")
         words = (*words[:worst], *words[worst + 2 :])
     return words, int(job.words[at]) / size
+
+
+def seconds_of(words, stopped):
+    """How long a command took; None where it failed, was stopped or took too long.  It ends with the night."""
+    began = time.monotonic()
+    child = subprocess.Popen(
+        words,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+        preexec_fn=end_with_parent,
+    )
+    while child.poll() is None:
+        if stopped() or time.monotonic() - began > LONGEST_PILOT_S:
+            os.killpg(child.pid, signal.SIGKILL)
+            child.wait()
+            return None
+        time.sleep(0.02)
+    return time.monotonic() - began if child.returncode in (0, 1) else None
 
 
 def pilot(program, jobs, threads, stopped):
@@ -52,15 +84,9 @@ def pilot(program, jobs, threads, stopped):
         key = words[:1] + words[2:] if words[0] == "search" else words
         if key not in tried:
             with tempfile.TemporaryDirectory(prefix="ulpgate-pilot-") as place:
-                began = time.monotonic()
-                target = pathlib.Path(place) / "out"
-                run = subprocess.run(
-                    [program, *words, "--out", target, "--threads", str(threads)],
-                    capture_output=True,
-                )
-                tried[key] = (
-                    time.monotonic() - began if run.returncode in (0, 1) else None
-                )
+                target = str(pathlib.Path(place) / "out")
+                whole = [program, *words, "--out", target, "--threads", str(threads)]
+                tried[key] = seconds_of(whole, stopped)
         if tried[key] is not None:
             seconds[job.name] = tried[key] * times
     return seconds

@@ -12,6 +12,8 @@ import time
 import pytest
 
 sys.path.insert(0, os.path.dirname(__file__))
+import estimates
+from jobs import Job
 from night_common import ROOT, more_serious
 from records import Seals, record_files
 
@@ -309,6 +311,32 @@ def test_a_plan_that_is_torn_is_refused(tmp_path):
     (out / "night.json").write_text('{"seed": 1')
     done = night(out, "--resume")
     assert done.returncode == 2 and "night.json" in done.stderr
+
+
+def test_a_pilot_is_of_drawn_points_alone():
+    """A list is as long at any size: its pilot would be the job itself, and its estimate many times too large."""
+    words = ("math", "--types", "float", "--samples", "20000", "--strata")
+    assert estimates.pilot_of(Job("lists", (*words, "edges,hard,worst"))) is None
+    found, times = estimates.pilot_of(Job("drawn", (*words, "uniform,binades")))
+    assert times == 20 and "1000" in found
+
+
+def test_a_pilot_ends_with_the_night(tmp_path, monkeypatch):
+    program = tmp_path / "slow"
+    program.write_text(f"#!/bin/sh\necho $$ >{tmp_path}/pid\nexec sleep 600\n")
+    program.chmod(0o755)
+    words = ("math", "--types", "float", "--samples", "20000", "--strata", "uniform")
+    job = Job("slow", words)
+    pid = tmp_path / "pid"
+    began = time.monotonic()
+    stopped = lambda: pid.exists() and pid.read_text().endswith("\n")  # noqa: E731
+    assert estimates.pilot(str(program), [job], 1, stopped) == {}
+    assert time.monotonic() - began < 60, "told to stop"
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(pid.read_text()), 0)
+    # And one that takes too long is no estimate.
+    monkeypatch.setattr(estimates, "LONGEST_PILOT_S", 0.2)
+    assert estimates.pilot(str(program), [job, job], 1, lambda: False) == {}
 
 
 def test_the_more_serious_exit_code():
