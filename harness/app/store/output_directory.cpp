@@ -91,6 +91,20 @@ std::string loss(const Json& there, const RunIdentity& here) {
   return "";
 }
 
+// What write_file() of a killed process left: NAME.PID-THREAD.part.
+bool is_remnant(const std::filesystem::directory_entry& entry) {
+  const std::string name = entry.path().filename().string();
+  constexpr std::string_view ending = ".part";
+  if (!name.ends_with(ending)) return false;
+  std::string_view rest = std::string_view(name).substr(0, name.size() - ending.size());
+  for (const char before : {'-', '.'}) {
+    const std::size_t digits = rest.find_last_not_of("0123456789") + 1;
+    if (digits == 0 || digits == rest.size() || rest[digits - 1] != before) return false;
+    rest = rest.substr(0, digits - 1);
+  }
+  return !rest.empty();
+}
+
 }  // namespace
 
 std::string identity_text(const RunIdentity& identity) {
@@ -109,6 +123,7 @@ OutputDirectory::OutputDirectory(std::filesystem::path path, RunIdentity identit
   lock();
   try {
     guard();
+    remove_remnants();
   } catch (...) {
     ::close(lock_);
     throw;
@@ -153,6 +168,20 @@ void OutputDirectory::guard() const {
   // The records of the same run stay until better ones take their place.
   std::filesystem::remove_all(units());
   std::filesystem::remove_all(checkpoints);
+}
+
+void OutputDirectory::remove_remnants() const {
+  std::vector<std::filesystem::path> found;
+  const auto look_at = [&](const auto& entries) {
+    for (const auto& entry : entries)
+      if (is_remnant(entry)) found.push_back(entry.path());
+  };
+  look_at(std::filesystem::directory_iterator(path_));
+  for (const auto* name : other_entries) {
+    if (const auto directory = path_ / name; std::filesystem::is_directory(directory))
+      look_at(std::filesystem::recursive_directory_iterator(directory));
+  }
+  for (const auto& file : found) std::filesystem::remove(file);
 }
 
 void OutputDirectory::clear() const {

@@ -64,6 +64,8 @@ class OutputDirectory {
  private:
   void lock();
   void guard() const;
+  // A killed process may have been about to replace a file: what it wrote aside is nobody's now.
+  void remove_remnants() const;
   void clear() const;
   void write_context_of(Json context, bool finished, bool sealed) const;
 

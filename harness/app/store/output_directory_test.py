@@ -187,6 +187,20 @@ def test_a_run_says_from_its_start_that_it_is_not_finished(busy):
     assert context["finished"] is False and context["complete"] is False
 
 
+def test_what_a_killed_process_wrote_aside_is_removed(tmp_path):
+    """A process killed between writing NAME.PID-THREAD.part and renaming it; other files are somebody's."""
+    whole, out = tmp_path / "whole", tmp_path / "out"
+    for directory in (whole, out):
+        assert run(*SCENE, "--out", directory)[0] == 0
+    remnants = ["context.json.10313-10313.part", "series/a.csv.1-22.part"]
+    others = ["my.part", "notes-1.part", "a.1-.part", "a.-1.part", ".1-2.part"]
+    for name in remnants + others:
+        (out / name).write_text("torn")
+    assert run(*SCENE, "--out", out)[0] == 0
+    found = bytes_of(out)
+    assert set(found) == set(bytes_of(whole)) | set(others)
+
+
 def test_a_killed_scene_wants_a_decision(tmp_path):
     out = tmp_path / "out"
     words = ["scene", "run", "deposition", "--types", "mpfr62", "--series"]
