@@ -9,6 +9,7 @@ import tempfile
 import time
 
 from children import end_with_parent
+from night_common import write_aside
 
 PILOT = {"math": "--samples", "kernels": "--samples", "search": "--evaluations"}
 PILOT_SIZE = {"math": 1000, "kernels": 8, "search": 20000}
@@ -33,6 +34,23 @@ def earlier(out):
         except (OSError, ValueError, KeyError, TypeError):
             continue
     return max(nights, key=lambda n: n[0])[1] if nights else {}
+
+
+def kept(out):
+    """Seconds by job as the pilots of this night found them before; {} where there were none."""
+    try:
+        found = json.loads((out / "estimates.json").read_text())
+        return {str(name): float(seconds) for name, seconds in found.items()}
+    except (OSError, ValueError, TypeError, AttributeError):
+        return {}
+
+
+def keep(out, seconds):
+    """For the night that goes on; a disk that is full is another's matter."""
+    try:
+        write_aside(out / "estimates.json", json.dumps(seconds, indent=1) + "\n")
+    except OSError:
+        pass
 
 
 def pilot_of(job):

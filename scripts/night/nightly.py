@@ -21,7 +21,7 @@ import sys
 import time
 
 from children import PATIENCE_S, Child
-from estimates import earlier, pilot
+from estimates import earlier, keep, kept, pilot
 from jobs import jobs_of, types_of
 from night_common import (
     ENVIRONMENT,
@@ -165,7 +165,7 @@ class Night:
         return self.finish()
 
     def estimate(self):
-        self.estimates = earlier(self.out)
+        self.estimates = earlier(self.out) | kept(self.out)
         missing = [job for job in self.left if job.name not in self.estimates]
         if missing and self.plan["size"] == "night":
             say("pilot runs, for the time each job should take")
@@ -175,6 +175,8 @@ class Night:
                 self.options.threads,
                 lambda: bool(self.ending),
             )
+            if not self.ending:
+                keep(self.out, self.estimates)
 
     def start_what_fits(self):
         while self.left and not self.ending:

@@ -339,6 +339,16 @@ def test_a_pilot_ends_with_the_night(tmp_path, monkeypatch):
     assert estimates.pilot(str(program), [job, job], 1, lambda: False) == {}
 
 
+def test_a_night_that_goes_on_knows_its_pilots(tmp_path):
+    assert estimates.kept(tmp_path) == {}
+    estimates.keep(tmp_path, {"math/lists": 96.5})
+    assert estimates.kept(tmp_path) == {"math/lists": 96.5}
+    for torn in ("", "[1]", '{"math/lists": "soon"}', '{"math'):
+        (tmp_path / "estimates.json").write_text(torn)
+        assert estimates.kept(tmp_path) == {}
+    estimates.keep(tmp_path / "nowhere", {})  # said by whoever needs the disk
+
+
 def test_the_more_serious_exit_code():
     assert (
         more_serious(0, 1) == 1
