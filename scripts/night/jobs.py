@@ -5,6 +5,7 @@ A job that is killed goes on with the same command, so a night is no more than a
 
 import dataclasses
 import json
+import pathlib
 import subprocess
 
 from night_common import BAD_INPUT, ROOT, Failure
@@ -79,7 +80,7 @@ def types_of(program, wanted):
     return sorted(types, key=built.index)
 
 
-def math_job(name, functions, types, samples, seed, strata):
+def math_job(name, functions, types, samples, seed, strata, known):
     words = (
         "math",
         "--functions",
@@ -91,11 +92,19 @@ def math_job(name, functions, types, samples, seed, strata):
         "--seed",
         str(seed),
     )
-    worst = ("--worst-cases", str(ROOT / "ci/worst_cases"), "--strata", strata)
+    worst = ("--worst-cases", str(known), "--strata", strata)
     return Job(f"math/{name}", words + worst, gate=HELD)
 
 
+def known_beside(worst_cases):
+    """The worst cases as they were when the night began."""
+    return pathlib.Path(worst_cases).with_name("known_cases")
+
+
 def search_jobs(program, types, evaluations, seed, worst_cases):
+    """What a search finds goes into WORST_CASES, what it knows stays: one that was killed after it had added its own, and is
+    made again, would else pass over them."""
+    known = known_beside(worst_cases)
     rows = json.loads(asked(program, "list", "functions", "--json"))
     real = [row["function"] for row in rows if row["class"] == "real"]
     for token in types:
@@ -109,7 +118,7 @@ def search_jobs(program, types, evaluations, seed, worst_cases):
                 "--seed",
                 str(seed),
             )
-            keep = ("--worst-cases", str(worst_cases))
+            keep = ("--worst-cases", str(worst_cases), "--known", str(known))
             yield Job(
                 f"search/{token}_{function}",
                 words + keep,
@@ -154,15 +163,16 @@ def jobs_of(program, size, types, seed, worst_cases):
     first = [t for t in native if t in ("float", "double")]
     wide = [t for t in types if t not in NATIVE]
 
+    known = known_beside(worst_cases)
+
     def drawn(kinds, tokens):
         for kind in kinds:
             samples = sizes["math"] if kind == "real" else sizes["special"]
             for t in tokens if samples else ():
-                yield math_job(
-                    f"{kind}_{t}", kind, t, samples, seed, "uniform,stratified,binades"
-                )
+                strata = "uniform,stratified,binades"
+                yield math_job(f"{kind}_{t}", kind, t, samples, seed, strata, known)
 
-    jobs = [math_job("lists", "all", joined, 20000, seed, "edges,hard,worst")]
+    jobs = [math_job("lists", "all", joined, 20000, seed, "edges,hard,worst", known)]
     # In the plan of the budgets, and in many more states, whose verdicts stand in the records.
     kernels = ("kernels", "--types", joined, "--samples")
     gate = ("--budgets", str(ROOT / "ci/budgets/kernels"), "--only-measured")

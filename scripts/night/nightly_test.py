@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -311,6 +312,14 @@ def test_a_plan_that_is_torn_is_refused(tmp_path):
     (out / "night.json").write_text('{"seed": 1')
     done = night(out, "--resume")
     assert done.returncode == 2 and "night.json" in done.stderr
+
+
+def test_a_night_without_what_it_knew_is_refused(through, tmp_path):
+    copy = tmp_path / "night"
+    shutil.copytree(through[0], copy)
+    shutil.rmtree(copy / "known_cases")
+    done = night(copy, "--resume")
+    assert done.returncode == 2 and "known_cases is gone" in done.stderr
 
 
 def test_a_pilot_is_of_drawn_points_alone():

@@ -120,6 +120,11 @@ def plan_of(options, out):
                     BAD_INPUT,
                     f"--{key} {value}: the night in {out} has {plan[key]}; go on without it",
                 )
+        if not (out / "known_cases").is_dir():
+            raise Failure(
+                BAD_INPUT,
+                f"{out}: known_cases is gone, which its records rest on; begin another night",
+            )
         return plan
     if file.exists():
         raise Failure(
@@ -136,6 +141,7 @@ def plan_of(options, out):
         "began": stamp(time.time()),
     }
     out.mkdir(parents=True, exist_ok=True)
+    copy_worst_cases(out / "known_cases")
     copy_worst_cases(out / "worst_cases")
     write_aside(file, json.dumps(plan, indent=1) + "\n")
     return plan

@@ -34,6 +34,7 @@ struct SearchOptions {
   unsigned threads = 0;
   std::string out;
   std::string worst_cases;
+  std::string known;
   double limit_ulp = 0;  // 0: none
   bool json = false;
 };
@@ -89,9 +90,10 @@ struct Hunts {
 
 Hunts make_hunts(const SearchOptions& o, const FunctionInfo& f, const Subject& subject) {
   ArgumentList known = subject.listed(Stratum::hard);
-  const std::filesystem::path directory = o.worst_cases.empty() ? "ci/worst_cases" : o.worst_cases;
+  const std::string& given = o.known.empty() ? o.worst_cases : o.known;
+  const std::filesystem::path directory = given.empty() ? "ci/worst_cases" : given;
   // What is wrong with the files should be known before the hunt.
-  if (!o.worst_cases.empty() || std::filesystem::is_directory(directory)) {
+  if (!given.empty() || std::filesystem::is_directory(directory)) {
     for (auto& point : worst_cases_of(directory, f, o.type)) known.push_back(std::move(point));
   }
   return {make_search(subject, o.seed), make_search_elsewhere(subject, o.seed, known)};
@@ -285,6 +287,10 @@ void add_search_command(CLI::App& app, Action& action) {
       "--worst-cases", o->worst_cases,
       "directory of worst cases: what was found is added to TYPE.txt unless that holds a worse "
       "one of the function");
+  search->add_option(
+      "--known", o->known,
+      "directory of worst cases that the second hunt passes over instead of those of --worst-cases: a "
+      "search that is made again finds the same, though the first added what it found");
   search
       ->add_option("--limit", o->limit_ulp,
                    "exit 1 where the error in ULP, away from hard arguments and known worst cases, is larger")

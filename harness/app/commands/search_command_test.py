@@ -108,6 +108,19 @@ def test_a15_known_hard_arguments_hide_no_smaller_error(library):
     assert 3.2 <= float.fromhex(wrong["elsewhere"]["args"][0]) <= 3.5
 
 
+def test_a_search_made_again_finds_the_same_where_known_stays(tmp_path):
+    """A search that is killed after it added its worst case is made again by the night."""
+    known, found = tmp_path / "known", tmp_path / "found"
+    known.mkdir()
+    found.mkdir()
+    words = ["--seed", "20260101", "--worst-cases", found]
+    first = search("atanh", "float", 2000, *words, "--known", known)
+    assert (found / "float.txt").exists()
+    assert search("atanh", "float", 2000, *words, "--known", known) == first
+    # Without it the second hunt passes over what the first search added.
+    assert search("atanh", "float", 2000, *words)["elsewhere"] != first["elsewhere"]
+
+
 def test_worst_cases_are_added_once_and_only_if_worse(tmp_path):
     words = ["search", "cbrt", "double", "--evaluations", "100000"]
     keep = ["--worst-cases", tmp_path]
