@@ -272,11 +272,11 @@ def test_a_full_disk_loses_nothing(through, small_disk):
     child = start(out)
     wait_for(lambda: jobs_done(out) >= 2)
     filler = small_disk / "filler"
-    with open(filler, "wb") as file:
+    # Unbuffered: what is still in a buffer would be written, and fail, once more when the file is closed.
+    with open(filler, "wb", buffering=0) as file:
         try:
             while True:
                 file.write(b"\0" * 65536)
-                file.flush()
         except OSError:
             pass
     _, said = child.communicate(timeout=300)
