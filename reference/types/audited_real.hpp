@@ -103,8 +103,9 @@ class std::numeric_limits<ulpgate::AuditedReal> : public std::numeric_limits<ulp
 // ask for.
 template <>
 struct boost::math::constants::detail::constant_pi<ulpgate::AuditedReal> {
-  template <int N>
-  static const ulpgate::AuditedReal& get(const std::integral_constant<int, N>&) {
+  // How it would be made; boost::integral_constant or std's by the version of Boost.
+  template <class Way>
+  static const ulpgate::AuditedReal& get(const Way&) {
     static const ulpgate::AuditedReal value(boost::math::constants::pi<ulpgate::AuditedReal::Value>());
     return value;
   }
