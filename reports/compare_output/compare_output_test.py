@@ -228,6 +228,20 @@ def test_no_rows_are_nothing_compared(files, capfd):
     assert run(capfd, *files(ref="a,b\n", out="a,b\n"))[0] == NOTHING
 
 
+def test_what_is_all_noise_is_nothing_judged(files, capfd):
+    paths = files(ref="i,x\n0,1\n1,2\n", out="i,x\n0,1\n1,5\n")
+    assert run(capfd, *paths, "--key", "i", "--field", "x=noise")[0] == NOTHING
+
+
+@pytest.mark.parametrize("limit", ["exact", "ulp:1e9", "norm:0.5"])
+def test_a_difference_beyond_the_range_of_a_double_is_one(files, capfd, limit):
+    paths = files(ref="i,x\n0,1e308\n", out="i,x\n0,-1e308\n")
+    code, fields = found(capfd, *paths, "--key", "i", "--field", f"x={limit}")
+    assert code == DIFFERENT and fields["x"]["digits"]["least"] == 0
+    wide = ["--wide", paths[0], "--field", "x=derived"]
+    assert run(capfd, *paths, "--key", "i", *wide)[0] == DIFFERENT
+
+
 def test_a_file_of_limits(files, capfd, tmp_path):
     limits = tmp_path / "limits.toml"
     limits.write_text('[fields]\n"*" = "norm:1e-3"\nn = "exact"\nshape = "exact"\n')

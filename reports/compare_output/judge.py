@@ -76,7 +76,9 @@ def _agree_in_kind(a, b):
 def _digits(difference, a, b):
     """Of the values that are finite in both."""
     size = np.maximum(np.abs(a.high), np.abs(b.high))
-    finite = np.isfinite(difference)
+    finite = ~np.isnan(
+        difference
+    )  # infinite: beyond the range of a double, so nothing agrees
     with np.errstate(divide="ignore", invalid="ignore"):
         digits = -np.log10(np.abs(difference[finite]) / size[finite])
     digits[difference[finite] == 0] = np.inf
@@ -84,7 +86,8 @@ def _digits(difference, a, b):
 
 
 def _largest(values):
-    finite = values[np.isfinite(values)]
+    """Of sizes; NaN stands for what is no difference of numbers and is judged by its kind."""
+    finite = values[~np.isnan(values)]
     return float(np.max(np.abs(finite))) if len(finite) else 0.0
 
 
@@ -96,7 +99,7 @@ def _spacing(values, type_name):
 
 
 def _scale(numbers):
-    return _largest(numbers.high)
+    return _largest(numbers.high[np.isfinite(numbers.high)])
 
 
 def judge_texts(name, limit, ref, out):
@@ -110,7 +113,7 @@ def judge_numbers(name, limit, ref, out, wide):
     difference = out.minus(ref)
     in_kind = _agree_in_kind(ref, out)
     # NaN beside NaN is no difference, and the difference of two equal infinities is none either.
-    size = np.where(np.isfinite(difference), np.abs(difference), 0.0)
+    size = np.where(np.isnan(difference), 0.0, np.abs(difference))
     r = FieldResult(name, limit, len(ref))
     r.not_finite = int((~in_kind).sum())
     r.different = int(((size != 0) | ~in_kind).sum())
@@ -140,7 +143,7 @@ def judge_numbers(name, limit, ref, out, wide):
     elif limit.kind == "derived":
         r.measured = r.error_out
         r.allowed = limit.value * r.error_ref + _DOUBLE
-        error = np.where(np.isfinite(errors[1]), errors[1], 0.0)
+        error = np.where(np.isnan(errors[1]), 0.0, errors[1])
         failed = error > r.allowed * whole
     r.failed_rows = failed | ~in_kind
     return r

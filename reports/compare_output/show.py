@@ -141,13 +141,14 @@ def text_of(pairs):
 def _json_number(x):
     if x is None or math.isnan(x):
         return None
-    return x if math.isfinite(x) else "all"
+    return x if math.isfinite(x) else "inf"
 
 
 def _json_digits(d):
     if d is None:
         return None
-    return {k: _json_number(getattr(d, k)) for k in ("least", "one_percent", "median")}
+    of = {k: getattr(d, k) for k in ("least", "one_percent", "median")}
+    return {k: x if math.isfinite(x) else "all" for k, x in of.items()}
 
 
 def json_of(pairs):
