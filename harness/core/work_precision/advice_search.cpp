@@ -22,6 +22,9 @@ constexpr double resolved_error = 0.1;
 // levels would bring if they brought as much as the last.
 constexpr double near_error = 64;
 constexpr double hopeful_levels = 3;
+// A disturbance of the machine may make a run so much longer than it is: between two levels it is not cut
+// below this, since what it then tells would be the wrong half to look in.
+constexpr double disturbance = 3;
 
 struct Progress {
   int next = 0;
@@ -33,8 +36,9 @@ struct Progress {
   int failing = -1;
   double failing_error = infinite;
   double error_before = infinite;
-  double failing_s = 0;
-  double meeting_s = 0;
+  // What its first level would take by the last level that fails and what is finer: the least that one tells,
+  // as disturbances only add time.
+  double first_s = infinite;
 };
 
 void note_error(Progress& p, double error) {
@@ -69,8 +73,8 @@ class Search {
     return least;
   }
 
-  [[nodiscard]] double most_s() const {
-    return std::min({best_s_, limits_.most_seconds, limits_.search_s - spent_s_});
+  [[nodiscard]] double most_s(double at_least = 0) const {
+    return std::min({std::max(best_s_, at_least), limits_.most_seconds, limits_.search_s - spent_s_});
   }
 
   // Whether it meets the error.
@@ -80,12 +84,15 @@ class Search {
     bool cut;
     bool meets;
   };
-  Look look(std::size_t i, int quarter) {
-    found_.points.push_back(measure_(i, quarter, most_s()));
+  Look look(std::size_t i, int quarter, double most_s) {
+    found_.points.push_back(measure_(i, quarter, most_s));
     const AdvicePoint& point = found_.points.back();
     spent_s_ += point.seconds;
     Look seen{point.certain_error(), point.seconds, point.cut, false};
     if (seen.cut) return seen;
+    // One that failed may have ended early.
+    if (std::isfinite(seen.error))
+      all_[i].first_s = std::min(all_[i].first_s, seen.seconds / growth_to(i, quarter));
     if (seen.error < least_error_) {
       least_error_ = seen.error;
       found_.nearest = found_.points.size() - 1;
@@ -113,7 +120,7 @@ class Search {
     if (p.end) return;
     const double most = most_s();
     const double best = best_s_;
-    const Look seen = look(i, quarters_of_level * p.next++);
+    const Look seen = look(i, quarters_of_level * p.next++, most);
     if (seen.cut) {
       p.end = most == best                   ? CurveEnd::too_dear
               : most == limits_.most_seconds ? CurveEnd::too_slow
@@ -123,13 +130,14 @@ class Search {
     p.expected_s = curves_[i].growth * seen.seconds;
     if (seen.meets) {
       p.end = CurveEnd::met;
-      p.meeting_s = seen.seconds;
       return;
     }
     p.failing = p.next - 1;
     p.error_before = p.failing_error;
     p.failing_error = seen.error;
-    p.failing_s = seen.seconds;
+    // Coarser ones may have ended early, or cost more than steps do.
+    p.first_s =
+        std::isfinite(seen.error) ? seen.seconds / growth_to(i, quarters_of_level * p.failing) : infinite;
     if (std::isfinite(seen.error)) note_error(p, seen.error);
     if (p.idle >= most_idle) p.end = CurveEnd::floor;
     if (p.next >= curves_[i].levels && !p.end) p.end = CurveEnd::finest;
@@ -145,12 +153,13 @@ class Search {
     return p.failing_error <= limits_.error * std::max(near_error, std::pow(brought, hopeful_levels));
   }
 
+  [[nodiscard]] double growth_to(std::size_t i, int quarter) const {
+    return std::pow(curves_[i].growth, static_cast<double>(quarter) / quarters_of_level);
+  }
+
   // Of a quarter beyond the last level that failed.
   [[nodiscard]] double expected_s(std::size_t i, int quarters) const {
-    const Progress& p = all_[i];
-    const double levels = static_cast<double>(quarters) / quarters_of_level;
-    return p.end == CurveEnd::met ? p.meeting_s * std::pow(curves_[i].growth, levels - 1)
-                                  : p.failing_s * std::pow(curves_[i].growth, levels);
+    return all_[i].first_s * growth_to(i, quarters_of_level * all_[i].failing + quarters);
   }
 
   void refine() {
@@ -172,7 +181,7 @@ class Search {
       if (spent_s_ + expected > limits_.search_s) return;
       bool enough = expected >= best_s_ || expected > limits_.most_seconds;
       if (!enough) {
-        const Look seen = look(i, base + middle);
+        const Look seen = look(i, base + middle, most_s(disturbance * expected));
         enough = seen.meets || seen.cut;
       }
       (enough ? beyond : failing) = middle;

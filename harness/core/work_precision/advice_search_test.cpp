@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace ulpgate {
 namespace {
@@ -24,6 +26,7 @@ struct Made {
   std::vector<int> looked = std::vector<int>(curves.size(), 0);
   double spent_s = 0;
   double search_s = inf;
+  std::map<int, double> disturbed = {};  // a quarter's run takes so many times as long
 
   AdviceSearch search(double error, double most_s, int levels = 30) {
     std::vector<AdviceCurve> list;
@@ -33,6 +36,7 @@ struct Made {
       const double level = quarter / 4.0;
       ++looked[i];
       AdvicePoint point{i, quarter, {}, m.first_s * std::exp2(level), false, AdvicePoint::Wanted::final};
+      if (disturbed.contains(quarter)) point.seconds *= disturbed[quarter];
       if (point.seconds > 2 * run_s) {
         point.cut = true;
         point.seconds = run_s;
@@ -110,6 +114,19 @@ TEST(AdviceSearch, CutsWhatTakesLongerThanTheBest) {
   // Levels, the cut one, and the quarters between the last two levels.
   EXPECT_NEAR(made.spent_s, 1 + 2 + 4 + 8 + 8 + 4 * (std::exp2(0.5) + std::exp2(0.25)), 1e-9);
   EXPECT_EQ(search.ends[1], CurveEnd::too_dear);
+}
+
+TEST(AdviceSearch, ADisturbedRunHidesNoCheaperOne) {
+  // The error is met from level 8.05 on: 8 1/4 is the cheapest quarter.  First the level that meets it is
+  // disturbed, then the quarter between, whose time is then no sign that it is dear.
+  const double error = std::exp2(-8.05);
+  for (const int quarter : {36, 34, 33}) {
+    Made made{{{1, 1, 0, 1}}};
+    made.disturbed[quarter] = 2.5;
+    const AdviceSearch search = made.search(error, inf);
+    EXPECT_TRUE(std::ranges::any_of(search.points, [](const auto& p) { return p.quarter == 33 && !p.cut; }))
+        << "quarter " << quarter << " disturbed";
+  }
 }
 
 TEST(AdviceSearch, DoesNotBeginWhatIsFarDearer) {
