@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "harness/app/shell/failure.hpp"
 
@@ -27,6 +28,13 @@ std::uint64_t count_from(const Json& j) {
 
 std::uint64_t index_from(const Json& j) {
   return j.is_null() ? no_index : count_from(j);
+}
+// Others are refused with the histogram's own limits.
+int bucket_from(const Json& j) {
+  const bool fits = j.is_number_integer() && j.get<std::int64_t>() >= std::numeric_limits<int>::min() &&
+                    j.get<std::int64_t>() <= std::numeric_limits<int>::max();
+  if (!fits) throw std::invalid_argument("a bucket is a whole number");
+  return j.get<int>();
 }
 Json index_to(std::uint64_t k) {
   return k == no_index ? Json(nullptr) : Json(k);
@@ -149,7 +157,7 @@ RowRecord from_json_line(const std::string& line, const std::string& place) {
     if (s.outcomes[0] > 0) s.first_index[0] = 0;
     s.histogram.exact = count_from(j.at("histogram").at("exact"));
     for (const auto& bucket : j.at("histogram").at("buckets")) {
-      s.histogram.counts[bucket.at(0).get<int>()] = count_from(bucket.at(1));
+      s.histogram.counts[bucket_from(bucket.at(0))] = count_from(bucket.at(1));
     }
     for (std::size_t o = 1; o < outcome_count; ++o) {
       const std::string name(outcome_names[o]);

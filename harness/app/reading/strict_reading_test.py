@@ -75,6 +75,14 @@ def in_histogram(row):
     return row
 
 
+def in_bucket(value):
+    def change(row):
+        row["histogram"]["buckets"][0][0] = value
+        return row
+
+    return change
+
+
 LIES = [
     ("math", put(max_ulp=-1), "largest error"),
     ("math", put(max_ulp=None), "largest error"),
@@ -96,6 +104,9 @@ LIES = [
     ("math", put(seed=3), "seed 3"),
     ("math", put(function="cos"), "not among the rows"),
     ("math", in_histogram, "histogram"),
+    ("math", in_bucket(-1e29), "whole number"),
+    ("math", in_bucket(2**40), "whole number"),
+    ("math", in_bucket(1.5), "whole number"),
     ("math", without("max_ulp_over_condition"), "max_ulp_over_condition"),
     ("math", put(max_ulp_over_condition=None), "condition"),
     ("kernels", without("max_normwise_over_condition"), "max_normwise_over_condition"),
