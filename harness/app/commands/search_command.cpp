@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/foreign/foreign_options.hpp"
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/machine/threads.hpp"
 #include "harness/app/shell/files.hpp"
@@ -37,11 +38,12 @@ struct SearchOptions {
   std::string known;
   double limit_ulp = 0;  // 0: none
   bool json = false;
+  ForeignOptions foreign;
 };
 
 std::string reproducer(const Subject& subject, const Point& point) {
-  return fmt::format("ulpgate at {} {} {}", subject.name(), subject.type().token,
-                     fmt::join(point.args_hex, " "));
+  return fmt::format("ulpgate at {} {} {}{}", subject.name(), subject.type().token,
+                     fmt::join(point.args_hex, " "), subject.info().selection);
 }
 
 // The batches of a round on several threads.
@@ -227,6 +229,7 @@ Verdict judge(const SearchOptions& o, const Subject& subject, const Hunts& hunts
 
 Verdict run_search(const SearchOptions& o) {
   const FunctionInfo& f = function_or_fail(o.function);
+  bind_foreign(o.foreign, o.function, o.type);
   const Subject& subject = subject_or_fail(o.function, o.type);
   if (!can_search(subject)) {
     throw Failure(Standing::bad_input,
@@ -257,7 +260,9 @@ Verdict run_search(const SearchOptions& o) {
     }
   }
   if (!complete) throw Failure(Standing::incomplete, "interrupted; what was found so far stands above");
-  return judge(o, subject, hunts, found);
+  Verdict verdict = judge(o, subject, hunts, found);
+  verdict |= foreign_verdict();
+  return verdict;
 }
 
 }  // namespace
@@ -295,6 +300,7 @@ void add_search_command(CLI::App& app, Action& action) {
       ->add_option("--limit", o->limit_ulp,
                    "exit 1 where the error in ULP, away from hard arguments and known worst cases, is larger")
       ->check(CLI::Range(0.0, 1e300));
+  add_foreign_options(*search, o->foreign, false);
   search->add_flag("--json", o->json, "print JSON");
   search->callback([=, &action] { action = [=] { return run_search(*o); }; });
 }

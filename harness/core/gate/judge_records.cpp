@@ -45,6 +45,16 @@ std::pair<std::string, std::string> words_of(Outcome outcome) {
       return {"a number", "zero"};
     case Outcome::exception:
       return {"an exception", "a value"};
+    case Outcome::crash:
+      return {"a crash", "a value"};
+    case Outcome::hang:
+      return {"no return", "a value"};
+    case Outcome::not_a_function:
+      return {"another value for the same argument", "one value"};
+    case Outcome::lane_dependent:
+      return {"another value beside other lanes", "one value"};
+    case Outcome::environment:
+      return {"another floating-point environment", "the one before the call"};
   }
   return {};
 }
