@@ -20,7 +20,9 @@ MATH = ["math", "--samples", "3000", "--timing", "off"]
 def library(tmp_path_factory):
     made = tmp_path_factory.mktemp("library") / "libtroublesome.so"
     flags = ["-O1", "-fno-builtin", "-shared", "-fPIC"]
-    subprocess.run(["cc", *flags, HERE / "troublesome.c", "-o", made, "-lm"], check=True)
+    subprocess.run(
+        ["cc", *flags, HERE / "troublesome.c", "-o", made, "-lm"], check=True
+    )
     return made
 
 
@@ -68,7 +70,9 @@ SHAPES = {
 
 
 @pytest.mark.parametrize("symbol", SHAPES)
-def test_every_shape_gives_what_a_call_in_process_gives(tmp_path, library, in_process, symbol):
+def test_every_shape_gives_what_a_call_in_process_gives(
+    tmp_path, library, in_process, symbol
+):
     code, err, rows = measured(tmp_path / "run", library, symbol, *SHAPES[symbol])
     assert code == 0, err
     assert figures(rows) == in_process
@@ -86,7 +90,9 @@ CALLED = {
 @pytest.mark.parametrize("symbol", CALLED)
 def test_other_types_and_numbers_of_arguments(tmp_path, library, symbol):
     function, type_, more = CALLED[symbol]
-    code, err, rows = measured(tmp_path / "a", library, symbol, *more, function=function, type_=type_)
+    code, err, rows = measured(
+        tmp_path / "a", library, symbol, *more, function=function, type_=type_
+    )
     assert code == 0, err
     own = tmp_path / "b"
     assert run(*MATH, "--functions", function, "--types", type_, "--out", own)[0] == 0
@@ -120,21 +126,31 @@ def test_what_happens_at_one_argument_is_its_outcome_alone(
     # A second run is the same to the last byte.
     again = measured(tmp_path / "again", library, symbol, *more)
     assert again[0] == 1 and again[2] == rows
-    assert (tmp_path / "run/math.jsonl").read_bytes() == (tmp_path / "again/math.jsonl").read_bytes()
+    assert (tmp_path / "run/math.jsonl").read_bytes() == (
+        tmp_path / "again/math.jsonl"
+    ).read_bytes()
 
 
 @pytest.mark.parametrize("symbol", ["every_second_call", "last_argument"])
 def test_hidden_state_is_no_function(tmp_path, library, symbol):
     code, err, rows = measured(tmp_path / "run", library, symbol)
     assert code == 1 and "not_a_function at" in err
-    assert mismatches(rows, "not_a_function").keys() >= {"uniform", "stratified", "binades"}
+    assert mismatches(rows, "not_a_function").keys() >= {
+        "uniform",
+        "stratified",
+        "binades",
+    }
     code, _, _ = measured(tmp_path / "again", library, symbol, "--threads", "1")
     assert code == 1
-    assert (tmp_path / "run/math.jsonl").read_bytes() == (tmp_path / "again/math.jsonl").read_bytes()
+    assert (tmp_path / "run/math.jsonl").read_bytes() == (
+        tmp_path / "again/math.jsonl"
+    ).read_bytes()
 
 
 def test_lanes_that_spoil_each_other(tmp_path, library):
-    code, err, rows = measured(tmp_path / "run", library, "vector_spoiled", "--signature", "v2d(v2d)")
+    code, err, rows = measured(
+        tmp_path / "run", library, "vector_spoiled", "--signature", "v2d(v2d)"
+    )
     assert code == 1 and "lane_dependent at" in err
     # No argument of a drawn stratum is a NaN: their neighbours were made ones.
     assert mismatches(rows, "lane_dependent").keys() >= {"uniform", "stratified"}
@@ -144,10 +160,15 @@ def test_lanes_that_spoil_each_other(tmp_path, library):
 def test_a_library_that_flushes_subnormals_on_loading(tmp_path, library, in_process):
     fast = tmp_path / "libfast.so"
     flags = ["-O1", "-ffast-math", "-fno-builtin", "-shared", "-fPIC"]
-    subprocess.run(["cc", *flags, HERE / "troublesome.c", "-o", fast, "-lm"], check=True)
+    subprocess.run(
+        ["cc", *flags, HERE / "troublesome.c", "-o", fast, "-lm"], check=True
+    )
     code, err, rows = measured(tmp_path / "run", fast, "good_sin")
     assert code == 1
-    assert "on loading it flushes subnormal results to zero (FTZ)" in err and "1f80 -> 9f" in err
+    assert (
+        "on loading it flushes subnormal results to zero (FTZ)" in err
+        and "1f80 -> 9f" in err
+    )
     # Its functions are called as they would be without that.
     assert figures(rows) == in_process
 
@@ -166,10 +187,22 @@ def test_one_that_hangs_everywhere_ends_the_run(tmp_path, library):
         (["--library", "libm.so.6"], "--symbol"),
         (["--symbol", "sin"], "--library"),
         (["--library", "libm.so.6", "--symbol", "sin", "--signature", "d(d"], "d(d"),
-        (["--library", "libm.so.6", "--symbol", "sin", "--signature", "f(f)"], "another type"),
-        (["--library", "libm.so.6", "--symbol", "pow", "--signature", "d(d,d)"], "2 argument"),
-        (["--library", "libm.so.6", "--symbol", "sin", "--worker", "/bin/none"], "/bin/none"),
-        (["--library", "libm.so.6", "--symbol", "sin", "--worker", "/bin/true"], "worker"),
+        (
+            ["--library", "libm.so.6", "--symbol", "sin", "--signature", "f(f)"],
+            "another type",
+        ),
+        (
+            ["--library", "libm.so.6", "--symbol", "pow", "--signature", "d(d,d)"],
+            "2 argument",
+        ),
+        (
+            ["--library", "libm.so.6", "--symbol", "sin", "--worker", "/bin/none"],
+            "/bin/none",
+        ),
+        (
+            ["--library", "libm.so.6", "--symbol", "sin", "--worker", "/bin/true"],
+            "worker",
+        ),
     ],
 )
 def test_what_cannot_be_loaded_is_bad_input(words, said):
@@ -179,10 +212,14 @@ def test_what_cannot_be_loaded_is_bad_input(words, said):
 
 def test_a_crash_while_loading(tmp_path):
     source = tmp_path / "a.c"
-    source.write_text("void start(void) __attribute__((constructor));\nvoid start(void) { __builtin_trap(); }\n")
+    source.write_text(
+        "void start(void) __attribute__((constructor));\nvoid start(void) { __builtin_trap(); }\n"
+    )
     made = tmp_path / "liba.so"
     subprocess.run(["cc", "-shared", "-fPIC", source, "-o", made], check=True)
-    code, _, err = run("at", "sin", "double", "1", "--library", made, "--symbol", "start")
+    code, _, err = run(
+        "at", "sin", "double", "1", "--library", made, "--symbol", "start"
+    )
     assert code == 2 and "SIGILL" in err
 
 
@@ -230,8 +267,13 @@ def test_a_list_of_implementations(tmp_path, library):
     }
     context = json.loads((out / "context.json").read_text())
     assert [c["function"] for c in context["foreign"]] == ["sin", "lgamma"]
-    assert context["foreign"][0]["path"] == str(library) and context["foreign"][0]["build_id"]
-    code, _, err = run(*MATH, "--implementations", file, "--types", "float", "--out", tmp_path / "none")
+    assert (
+        context["foreign"][0]["path"] == str(library)
+        and context["foreign"][0]["build_id"]
+    )
+    code, _, err = run(
+        *MATH, "--implementations", file, "--types", "float", "--out", tmp_path / "none"
+    )
     assert code == 3
     for wrong, said in [("symbl = 1\n", "symbl"), ("claim_ulp = -1\n", "claim_ulp")]:
         file.write_text(LIST.format(library=library) + wrong)
@@ -242,7 +284,16 @@ def test_a_list_of_implementations(tmp_path, library):
 def test_another_build_is_another_plan(tmp_path, library):
     plans = set()
     for symbol in ("good_sin", "arrays_sin"):
-        words = ["--library", library, "--symbol", symbol, *SHAPES[symbol], "--dry-run", "--out", tmp_path]
+        words = [
+            "--library",
+            library,
+            "--symbol",
+            symbol,
+            *SHAPES[symbol],
+            "--dry-run",
+            "--out",
+            tmp_path,
+        ]
         code, out, err = run(*MATH, "--functions", "sin", "--types", "double", *words)
         assert code == 0, err
         plans.add(json.loads(out)["plan"])

@@ -58,6 +58,16 @@ class Reader {
     return *x;
   }
 
+  // What `find` throws says where as well.
+  template <class Find>
+  static auto placed(const ListedFunction& row, Find find) {
+    try {
+      return find();
+    } catch (const Failure& e) {
+      throw Failure(e.standing(), row.place + e.what());
+    }
+  }
+
   void add_rows(const toml::table& table) {
     ListedFunction row = pattern_;
     row.place = at(table);
@@ -76,11 +86,11 @@ class Reader {
                  row.spec.symbol);
       return;
     }
-    static_cast<void>(type_or_fail(row.type));
+    placed(row, [&] { return &type_or_fail(row.type); });
     for (const auto& name : names_) {
       ListedFunction one = row;
       one.function = name;
-      const auto arity = static_cast<std::size_t>(function_or_fail(name).arity);
+      const auto arity = static_cast<std::size_t>(placed(row, [&] { return function_or_fail(name).arity; }));
       if (!one.claim.domain.empty() && one.claim.domain.size() != arity)
         bad(fmt::format("{}the domain of {} has {} intervals, the function {} arguments", row.place, name,
                         one.claim.domain.size(), arity));
