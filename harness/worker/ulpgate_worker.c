@@ -10,7 +10,6 @@
 #define _GNU_SOURCE
 #include <errno.h>
 #include <limits.h>
-#include <linux/futex.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,6 +36,9 @@ static struct ulpgate_channel* channel;
 #include "worker_thunks.h"
 
 static struct ulpgate_environment standard;
+
+/* Of the kernel's interface; its headers are not every C library's. */
+enum { FUTEX_WAIT = 0, FUTEX_WAKE = 1 };
 
 static long futex(uint32_t* word, int operation, uint32_t value) {
   return syscall(SYS_futex, word, operation, value, NULL, NULL, 0);

@@ -8,7 +8,7 @@
 
 #include "harness/app/foreign/implementations.hpp"
 #include "harness/app/reading/json_fields.hpp"
-#include "harness/core/foreign/properties.hpp"
+#include "harness/foreign/properties.hpp"
 #include "harness/core/verdict/verdict.hpp"
 
 namespace ulpgate::app {

@@ -12,8 +12,9 @@
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
-#include "harness/core/foreign/foreign_code.hpp"
-#include "harness/core/foreign/foreign_failure.hpp"
+#include "harness/core/arguments/random_words.hpp"
+#include "harness/foreign/foreign_code.hpp"
+#include "harness/foreign/foreign_failure.hpp"
 #include "reference/functions/function_info.hpp"
 
 namespace ulpgate::app {
@@ -87,11 +88,18 @@ BoundFunction bind_listed(const ListedFunction& row) {
   auto code = make_code(row, {element, f.arity, row.function == "cos" || row.function == "cosh" ? 1 : 0});
   if (code == nullptr) return {};
   const ForeignFacts& facts = code->facts();
-  CodeNames names{facts.name_with(row.spec.symbol), row.spec.claimed_ulp, row.spec.selection(), {}};
+  CodeNames names{
+      row.name.empty() ? facts.name_with(row.spec.symbol) : fmt::format("{} {}", row.name, row.spec.symbol),
+      row.spec.claimed_ulp,
+      row.spec.selection(),
+      {}};
   names.facts = {{"path", facts.path},
                  {"soname", facts.soname},
                  {"build_id", facts.build_id},
                  {"signature", facts.signature}};
+  // What has no build-id is told from another by its bytes.
+  if (facts.build_id.empty() && std::filesystem::is_regular_file(facts.path))
+    names.facts.emplace_back("content", fmt::format("{:016x}", fnv1a(read_file(facts.path))));
   if (!row.claim.domain.empty()) names.facts.emplace_back("claim_domain", domain_text(row.claim));
   if (row.claim.floor > 0) names.facts.emplace_back("claim_floor", fmt::format("{}", row.claim.floor));
   Bound b{nullptr, std::move(code), nullptr};
@@ -174,7 +182,7 @@ ForeignOptions take_foreign_options(std::vector<std::string>& words) {
 void bind_foreign(const ForeignOptions& o, const std::string& function, const std::string& type) {
   if (!o.one()) return;
   refuse_incomplete(o);
-  ListedFunction row{function, type, {}, {}, ""};
+  ListedFunction row{function, type, {}, {}, "", ""};
   row.spec = common_spec(o);
   row.spec.library = o.library.empty() ? "-" : o.library;
   row.spec.symbol = o.symbol;

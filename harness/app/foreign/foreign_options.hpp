@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/core/foreign/foreign_spec.hpp"
 #include "harness/core/records/row_record.hpp"
 #include "harness/core/verdict/verdict.hpp"
+#include "harness/foreign/foreign_spec.hpp"
 
 namespace ulpgate::app {
 

@@ -104,6 +104,8 @@ class Reader {
       row.spec.library = text_of(node, key);
     } else if (key == "worker") {
       row.spec.worker = text_of(node, key);
+    } else if (key == "name") {
+      row.name = text_of(node, key);
     } else if (key == "symbol") {
       row.spec.symbol = text_of(node, key);
     } else if (key == "signature") {
@@ -121,10 +123,11 @@ class Reader {
     } else if (key == "domain" && node.is_array()) {
       row.claim.domain = domain_of(*node.as_array());
     } else {
-      bad(fmt::format(
-          "{}unknown key '{}' (library, worker, symbol, signature, function, functions, type, claim_ulp, "
-          "claim_floor, domain)",
-          at(node), key));
+      bad(
+          fmt::format("{}unknown key '{}' (library, worker, name, symbol, signature, function, functions, "
+                      "type, claim_ulp, "
+                      "claim_floor, domain)",
+                      at(node), key));
     }
   }
 

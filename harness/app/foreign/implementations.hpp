@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/core/foreign/claimed_code.hpp"
-#include "harness/core/foreign/foreign_spec.hpp"
 #include "harness/core/subject/subject.hpp"
+#include "harness/foreign/claimed_code.hpp"
+#include "harness/foreign/foreign_spec.hpp"
 
 namespace ulpgate::app {
 
@@ -15,6 +15,7 @@ struct ListedFunction {
   std::string type;
   ForeignSpec spec;
   ClaimBounds claim;
+  std::string name;   // of the library with its version, for records; empty: that of its file
   std::string place;  // "FILE:LINE: ", for messages; empty where it stands on the command line
 };
 

@@ -1,5 +1,5 @@
 // ClaimedCode.
-#include "harness/core/foreign/claimed_code.hpp"
+#include "harness/foreign/claimed_code.hpp"
 
 #include <algorithm>
 #include <cmath>

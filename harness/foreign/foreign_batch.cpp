@@ -1,5 +1,5 @@
 // ForeignBatch.
-#include "harness/core/foreign/foreign_batch.hpp"
+#include "harness/foreign/foreign_batch.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <numeric>
 
-#include "harness/core/foreign/foreign_failure.hpp"
+#include "harness/foreign/foreign_failure.hpp"
 
 namespace ulpgate {
 

@@ -1,5 +1,5 @@
 // ForeignCode.
-#include "harness/core/foreign/foreign_code.hpp"
+#include "harness/foreign/foreign_code.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "harness/core/foreign/foreign_batch.hpp"
+#include "harness/foreign/foreign_batch.hpp"
 
 namespace ulpgate {
 

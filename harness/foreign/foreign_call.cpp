@@ -1,5 +1,5 @@
 // ForeignCall.
-#include "harness/core/foreign/foreign_call.hpp"
+#include "harness/foreign/foreign_call.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <list>
 #include <memory>
 
-#include "harness/core/foreign/foreign_failure.hpp"
+#include "harness/foreign/foreign_failure.hpp"
 
 namespace ulpgate {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "harness/core/foreign/foreign_spec.hpp"
-#include "harness/core/foreign/worker_process.hpp"
+#include "harness/foreign/foreign_spec.hpp"
+#include "harness/foreign/worker_process.hpp"
 #include "harness/worker/worker_signature.h"
 
 namespace ulpgate {

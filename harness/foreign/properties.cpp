@@ -1,5 +1,5 @@
 // Properties of functions.
-#include "harness/core/foreign/properties.hpp"
+#include "harness/foreign/properties.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/core/foreign/foreign_call.hpp"
+#include "harness/foreign/foreign_call.hpp"
 #include "kernels/math/function_table.hpp"
 
 namespace ulpgate {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/core/foreign/foreign_call.hpp"
+#include "harness/foreign/foreign_call.hpp"
 #include "reference/ulp/ulp.hpp"
 
 namespace ulpgate {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/core/foreign/claimed_code.hpp"
+#include "harness/foreign/claimed_code.hpp"
 
 namespace ulpgate {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "harness/core/foreign/foreign_spec.hpp"
+#include "harness/foreign/foreign_spec.hpp"
 #include "harness/worker/worker_channel.h"
 
 namespace ulpgate {

@@ -1,5 +1,5 @@
 // WorkerProcess.
-#include "harness/core/foreign/worker_process.hpp"
+#include "harness/foreign/worker_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -22,7 +22,7 @@
 #include <filesystem>
 #include <new>
 
-#include "harness/core/foreign/foreign_failure.hpp"
+#include "harness/foreign/foreign_failure.hpp"
 #include "harness/core/watch/heartbeat.hpp"
 
 extern char** environ;

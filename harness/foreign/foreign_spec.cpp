@@ -1,5 +1,5 @@
 // ForeignSpec: names and signatures.
-#include "harness/core/foreign/foreign_spec.hpp"
+#include "harness/foreign/foreign_spec.hpp"
 
 #include <fmt/format.h>
 
