@@ -119,14 +119,14 @@ void ForeignCode::evaluate(const void* args, void* results, std::uint8_t* threw,
   std::ranges::copy(again.troubles(), threw);
 }
 
-void ForeignCode::call(const void* args, void* results, std::size_t count) const {
+void ForeignCode::call(const void* args, void* results, std::size_t count, int rounds) const {
   const std::size_t size = call_.size();
   for (std::size_t first = 0; first < count; first += ulpgate_channel_points) {
     const std::size_t n = std::min<std::size_t>(ulpgate_channel_points, count - first);
     WorkerProcess& w = call_.worker();
     std::memcpy(w.channel().arguments, static_cast<const unsigned char*>(args) + first * call_.arity() * size,
                 n * call_.arity() * size);
-    if (w.request(static_cast<std::uint32_t>(n), ulpgate_worker_whole) != WorkerEnd::answered) {
+    if (w.request(static_cast<std::uint32_t>(n), ulpgate_worker_whole, static_cast<std::uint32_t>(rounds)) != WorkerEnd::answered) {
       call_.drop_worker();
       continue;
     }

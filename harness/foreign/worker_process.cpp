@@ -198,10 +198,11 @@ double WorkerProcess::processor_seconds() const {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-WorkerEnd WorkerProcess::request(std::uint32_t count, ulpgate_worker_mode mode) {
+WorkerEnd WorkerProcess::request(std::uint32_t count, ulpgate_worker_mode mode, std::uint32_t rounds) {
   ulpgate_channel& c = *channel_;
   c.count = count;
   c.mode = mode;
+  c.rounds = rounds;
   const std::uint32_t before = load(c.reply);
   const std::uint32_t wanted = before + 1;
   __atomic_store_n(&c.progress, std::uint64_t{0}, __ATOMIC_RELAXED);

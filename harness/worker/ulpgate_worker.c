@@ -296,7 +296,7 @@ static void serve(function_t f, const struct ulpgate_signature* s, thunk_t thunk
         memset(channel->changed_points + i, environment_changed(), last - i);
       }
     } else {
-      thunk(f, s, 0, count);
+      for (uint32_t round = 0; round < channel->rounds; ++round) thunk(f, s, 0, count);
       environment_changed();
     }
     note_replaced_handlers();

@@ -44,9 +44,9 @@ struct ulpgate_channel {
   uint32_t mode;
   uint32_t state;
   int32_t signal;
+  uint32_t rounds;   /* how often, where the batch is whole */
   uint32_t changed; /* 1 where a point or the batch left another environment behind: the first such one is
                        `after` */
-  uint32_t unused;
   struct ulpgate_environment after;
   /* That of a process before and behind the library's constructors. */
   struct ulpgate_environment at_start;

@@ -106,9 +106,13 @@ class FunctionSubject final : public Subject {
     std::vector<Real> args(count * static_cast<std::size_t>(function_.arity));
     std::vector<Real> results(count * static_cast<std::size_t>(function_.parts));
     Arguments<Real>(function_, {Stratum::uniform, 1, count, nullptr}).make_all(0, count, args.data());
-    return [call = call_, args, results, threw = std::vector<std::uint8_t>(count)](std::size_t n) mutable {
-      if (call.code() != nullptr) return call.code()->call(args.data(), results.data(), n);
-      call(args.data(), results.data(), threw.data(), n);
+    return [call = call_, args, results, threw = std::vector<std::uint8_t>(count)](std::size_t n,
+                                                                                          int rounds) mutable {
+      if (call.code() != nullptr) return call.code()->call(args.data(), results.data(), n, rounds);
+      for (int i = 0; i < rounds; ++i) {
+        Heartbeat::mine().beat(WorkPhase::none);
+        call(args.data(), results.data(), threw.data(), n);
+      }
     };
   }
 

@@ -72,8 +72,8 @@ struct CodeNames {
   std::vector<std::pair<std::string, std::string>> facts;
 };
 
-// A prepared batch of arguments: evaluates its first `count` points, again and again.
-using TimedBatch = std::function<void(std::size_t count)>;
+// A prepared batch of arguments: evaluates its first `count` points, so many times over.
+using TimedBatch = std::function<void(std::size_t count, int rounds)>;
 
 class Subject {
  public:
