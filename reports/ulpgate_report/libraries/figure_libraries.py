@@ -39,6 +39,18 @@ def _y(max_ulp):
     return min(max(float(max_ulp), LEAST_DRAWN_ULP), LARGEST_DRAWN_ULP)
 
 
+def _time_axis(axes, times):
+    """Logarithmic, with plain numbers at 1, 2 and 5 times powers of ten."""
+    low, high = min(times) / 1.15, max(times) * 1.15
+    axes.set_xscale("log")
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    ticks = [k * 10.0**n for n in decades for k in (1, 2, 5)]
+    ticks = [tick for tick in ticks if low <= tick <= high]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.set_xticks([], minor=True)
+    axes.set_xlim(low, high)
+
+
 def _draw_panel(axes, beside, token, found):
     for function, marks in sorted(found.items()):
         axes.plot(
@@ -73,8 +85,9 @@ def _draw_panel(axes, beside, token, found):
     axes.set_title(token, loc="left", size=8.5)
     axes.set_ylabel("largest error (ULP)")
     axes.set_xlabel("time of one evaluation (ns)")
-    axes.set_ylim(LEAST_DRAWN_ULP / 1.2, LARGEST_DRAWN_ULP * 2)
-    figure_style.log_axis(axes.xaxis)
+    largest = max(_y(ulp) for marks in found.values() for _, _, ulp in marks)
+    axes.set_ylim(LEAST_DRAWN_ULP / 1.2, max(10.0, 2 * largest))
+    _time_axis(axes, [time for marks in found.values() for _, time, _ in marks])
     figure_style.log_axis(axes.yaxis)
 
 
@@ -104,6 +117,8 @@ def draw(beside):
         )
         for i, label in enumerate(beside.labels)
     ]
-    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.08, 1.0), ncol=3)
+    figure.legend(
+        handles=handles, loc="lower left", bbox_to_anchor=(0.08, 0.99), ncol=3
+    )
     figure.tight_layout()
     return NAME, CAPTION, figure
