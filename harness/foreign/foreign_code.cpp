@@ -126,7 +126,8 @@ void ForeignCode::call(const void* args, void* results, std::size_t count, int r
     WorkerProcess& w = call_.worker();
     std::memcpy(w.channel().arguments, static_cast<const unsigned char*>(args) + first * call_.arity() * size,
                 n * call_.arity() * size);
-    if (w.request(static_cast<std::uint32_t>(n), ulpgate_worker_whole, static_cast<std::uint32_t>(rounds)) != WorkerEnd::answered) {
+    if (w.request(static_cast<std::uint32_t>(n), ulpgate_worker_whole, static_cast<std::uint32_t>(rounds)) !=
+        WorkerEnd::answered) {
       call_.drop_worker();
       continue;
     }

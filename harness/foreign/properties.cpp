@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "harness/core/arguments/random_words.hpp"
 #include "reference/text/text.hpp"
 
 namespace ulpgate {
@@ -70,22 +71,13 @@ Shape shape_of(FunctionId id) {
   }
 }
 
-// SplitMix64 (Steele, Lea, Flood 2014): a stream from the seed.
-std::uint64_t next_word(std::uint64_t& state) {
-  state += 0x9e3779b97f4a7c15U;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31U);
-}
-
 template <class Real>
 class Properties {
  public:
   using L = std::numeric_limits<Real>;
 
   Properties(const BatchCode& code, const FunctionInfo& f, const ClaimBounds& claim, std::uint64_t seed)
-      : code_(code), function_(f), claim_(claim), state_(seed) {}
+      : code_(code), function_(f), claim_(claim), words_(seed) {}
 
   std::vector<PropertyFinding> broken() {
     if (function_.arity == 1) {
@@ -148,10 +140,10 @@ class Properties {
     std::vector<Real> x;
     while (x.size() < points * arity) {
       const auto [low, high] = interval(x.size() % arity);
-      const std::uint64_t word = next_word(state_);
+      const std::uint64_t word = words_.word();
       const int most =
           std::isfinite(high) ? std::max(-20, std::min(30, std::ilogb(std::max(high, 1e-30)))) : 30;
-      const int exponent = -30 + static_cast<int>(next_word(state_) % static_cast<std::uint64_t>(most + 31));
+      const int exponent = -30 + static_cast<int>(words_.word() % static_cast<std::uint64_t>(most + 31));
       const Real significand = Real(1) + static_cast<Real>(word >> 12U) * static_cast<Real>(0x1p-52);
       Real value = std::ldexp(significand, exponent);
       if ((word & 1U) != 0) value = -value;
@@ -354,7 +346,7 @@ class Properties {
   const BatchCode& code_;
   const FunctionInfo& function_;
   const ClaimBounds& claim_;
-  std::uint64_t state_;
+  SplitMix64 words_;
   std::vector<PropertyFinding> found_;
 };
 

@@ -22,8 +22,8 @@
 #include <filesystem>
 #include <new>
 
-#include "harness/foreign/foreign_failure.hpp"
 #include "harness/core/watch/heartbeat.hpp"
+#include "harness/foreign/foreign_failure.hpp"
 
 extern char** environ;
 

@@ -28,8 +28,8 @@ class WorkerProcess {
   [[nodiscard]] ulpgate_channel& channel() { return *channel_; }
   [[nodiscard]] const ulpgate_channel& channel() const { return *channel_; }
 
-  // Of `count` points whose arguments stand in the channel, so many times over.  After a crash or a hang there is no process any
-  // more, and channel().progress names the point.
+  // Of `count` points whose arguments stand in the channel, so many times over.  After a crash or a hang
+  // there is no process any more, and channel().progress names the point.
   [[nodiscard]] WorkerEnd request(std::uint32_t count, ulpgate_worker_mode mode, std::uint32_t rounds = 1);
   // What ended it: "SIGSEGV", "exit code 3".
   [[nodiscard]] const std::string& why() const { return why_; }

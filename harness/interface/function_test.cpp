@@ -27,16 +27,21 @@ template <class Real>
 class FunctionTest {
  public:
   FunctionTest(const FunctionInfo& f, std::string type, ulpgate_batch evaluate, void* user)
-      : function_(f), type_(std::move(type)), evaluate_(evaluate), user_(user), arity_(static_cast<std::size_t>(f.arity)) {}
+      : function_(f),
+        type_(std::move(type)),
+        evaluate_(evaluate),
+        user_(user),
+        arity_(static_cast<std::size_t>(f.arity)) {}
 
   Json run(std::uint64_t samples, std::uint64_t seed) {
     Json rows = Json::array();
     const ArgumentList edges = edge_arguments(function_, float_format<Real>());
     const ArgumentList hard = hard_arguments(function_, float_format<Real>());
-    for (const StratumSource& source :
-         {StratumSource{Stratum::uniform, seed, samples - samples / 2, nullptr}, {Stratum::stratified, seed, samples / 2, nullptr},
-          {Stratum::binades, seed, samples / 2, nullptr}, {Stratum::edges, seed, edges.size(), &edges},
-          {Stratum::hard, seed, hard.size(), &hard}}) {
+    for (const StratumSource& source : {StratumSource{Stratum::uniform, seed, samples - samples / 2, nullptr},
+                                        {Stratum::stratified, seed, samples / 2, nullptr},
+                                        {Stratum::binades, seed, samples / 2, nullptr},
+                                        {Stratum::edges, seed, edges.size(), &edges},
+                                        {Stratum::hard, seed, hard.size(), &hard}}) {
       if (source.count > 0) rows.push_back(row_of(source, seed));
     }
     return rows;
@@ -113,11 +118,13 @@ class FunctionTest {
   std::size_t arity_;
 };
 
-Json test_function(const char* function, const std::string& type, ulpgate_batch evaluate, void* user, std::uint64_t samples,
-                   std::uint64_t seed) {
+Json test_function(const char* function, const std::string& type, ulpgate_batch evaluate, void* user,
+                   std::uint64_t samples, std::uint64_t seed) {
   const auto found = find_function(function);
-  if (!found || found->parts != 1) throw std::invalid_argument(fmt::format("'{}' is no function of one real result", function));
-  if (samples < 2 || samples > 100000000) throw std::invalid_argument(fmt::format("{} samples: want 2 to 1e8", samples));
+  if (!found || found->parts != 1)
+    throw std::invalid_argument(fmt::format("'{}' is no function of one real result", function));
+  if (samples < 2 || samples > 100000000)
+    throw std::invalid_argument(fmt::format("{} samples: want 2 to 1e8", samples));
   const FunctionInfo& f = info_of(found->id);
   if (type == "float") return FunctionTest<float>(f, type, evaluate, user).run(samples, seed);
   if (type == "double") return FunctionTest<double>(f, type, evaluate, user).run(samples, seed);
@@ -130,8 +137,8 @@ Json test_function(const char* function, const std::string& type, ulpgate_batch 
 
 extern "C" {
 
-int ulpgate_test_function(const char* function, const char* type, ulpgate_batch evaluate, void* user, uint64_t samples,
-                          uint64_t seed, char** json) {
+int ulpgate_test_function(const char* function, const char* type, ulpgate_batch evaluate, void* user,
+                          uint64_t samples, uint64_t seed, char** json) {
   int ended = 0;
   const int code = ulpgate::guarded([&] {
     try {

@@ -25,7 +25,8 @@ namespace {
 
 const FunctionInfo& function_named(const char* name) {
   const auto f = find_function(name);
-  if (!f || f->parts != 1) throw std::invalid_argument(fmt::format("'{}' is no function of one real result", name));
+  if (!f || f->parts != 1)
+    throw std::invalid_argument(fmt::format("'{}' is no function of one real result", name));
   return info_of(f->id);
 }
 
@@ -118,8 +119,8 @@ int ulpgate_arity(const char* function) {
   return f && f->parts == 1 ? f->arity : 0;
 }
 
-int ulpgate_ulp_errors(const char* function, const char* type, const void* args, const void* got, size_t count, double* ulp,
-                       unsigned char* outcome) {
+int ulpgate_ulp_errors(const char* function, const char* type, const void* args, const void* got,
+                       size_t count, double* ulp, unsigned char* outcome) {
   return ulpgate::guarded([&] {
     const auto& f = ulpgate::function_named(function);
     ulpgate::in_type(type, [&](auto zero) {
@@ -134,8 +135,8 @@ int ulpgate_ulp_errors(const char* function, const char* type, const void* args,
   });
 }
 
-int ulpgate_describe_value(const char* type, const void* got, const void* exact, double limit_ulp, double* ulp, char* text,
-                           size_t size) {
+int ulpgate_describe_value(const char* type, const void* got, const void* exact, double limit_ulp,
+                           double* ulp, char* text, size_t size) {
   return ulpgate::guarded([&] {
     ulpgate::in_type(type, [&](auto zero) {
       using Real = decltype(zero);
@@ -149,8 +150,8 @@ int ulpgate_describe_value(const char* type, const void* got, const void* exact,
   });
 }
 
-int ulpgate_describe_call(const char* type, const void* got, const char* function, const void* args, double limit_ulp,
-                          double* ulp, char* text, size_t size) {
+int ulpgate_describe_call(const char* type, const void* got, const char* function, const void* args,
+                          double limit_ulp, double* ulp, char* text, size_t size) {
   return ulpgate::guarded([&] {
     const auto& f = ulpgate::function_named(function);
     ulpgate::in_type(type, [&](auto zero) {
@@ -163,24 +164,29 @@ int ulpgate_describe_call(const char* type, const void* got, const char* functio
       std::string words = ulpgate::words_of(g, exact.get(), j, limit_ulp);
       std::string call;
       for (int i = 0; i < f.arity; ++i)
-        call += (i == 0 ? "" : ", ") + ulpgate::to_hexfloat(ulpgate::read<Real>(args, static_cast<std::size_t>(i)));
+        call += (i == 0 ? "" : ", ") +
+                ulpgate::to_hexfloat(ulpgate::read<Real>(args, static_cast<std::size_t>(i)));
       words += fmt::format("\n  of       {}({})", function, call);
       const double condition = ulpgate::condition_number(f, x, 0, std::numeric_limits<Real>::digits);
       if (std::isfinite(condition)) {
-        words += fmt::format("\n  condition number {:.4g}: half an ULP in the argument{} costs up to {:.4g} ULP here", condition,
-                             f.arity == 1 ? "" : "s", condition);
+        words += fmt::format(
+            "\n  condition number {:.4g}: half an ULP in the argument{} costs up to {:.4g} ULP here",
+            condition, f.arity == 1 ? "" : "s", condition);
       }
       ulpgate::put(words, text, size);
     });
   });
 }
 
-int ulpgate_exact(const char* function, const char* const* args, size_t arguments, int digits, char* text, size_t size) {
+int ulpgate_exact(const char* function, const char* const* args, size_t arguments, int digits, char* text,
+                  size_t size) {
   return ulpgate::guarded([&] {
     const auto& f = ulpgate::function_named(function);
     if (arguments != static_cast<std::size_t>(f.arity))
-      throw std::invalid_argument(fmt::format("{} takes {} arguments, found {}", function, f.arity, arguments));
-    if (digits < 1 || digits > 100000) throw std::invalid_argument(fmt::format("{} digits: want 1 to 100000", digits));
+      throw std::invalid_argument(
+          fmt::format("{} takes {} arguments, found {}", function, f.arity, arguments));
+    if (digits < 1 || digits > 100000)
+      throw std::invalid_argument(fmt::format("{} digits: want 1 to 100000", digits));
     const auto bits = static_cast<long>(std::ceil(digits * 3.3219280948873626)) + 32;
     std::vector<ulpgate::MpfrValue> x;
     for (std::size_t i = 0; i < arguments; ++i) {
@@ -188,13 +194,15 @@ int ulpgate_exact(const char* function, const char* const* args, size_t argument
       x.emplace_back(std::max(bits, static_cast<long>(4 * std::strlen(args[i]) + 64)));
       char* end = nullptr;
       mpfr_strtofr(x.back().get(), args[i], &end, 0, MPFR_RNDN);
-      if (args[i][0] == '\0' || *end != '\0') throw std::invalid_argument(fmt::format("'{}' is no number", args[i]));
+      if (args[i][0] == '\0' || *end != '\0')
+        throw std::invalid_argument(fmt::format("'{}' is no number", args[i]));
     }
     std::vector<ulpgate::MpfrValue> value;
     value.emplace_back(bits);
     ulpgate::exact_value(f, x, value);
     const std::string words = ulpgate::to_decimal(value.front().get(), digits);
-    if (words.size() + 1 > size) throw std::invalid_argument(fmt::format("{} digits do not fit into {} bytes", digits, size));
+    if (words.size() + 1 > size)
+      throw std::invalid_argument(fmt::format("{} digits do not fit into {} bytes", digits, size));
     ulpgate::put(words, text, size);
   });
 }

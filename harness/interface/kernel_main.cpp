@@ -1,6 +1,7 @@
 // ulpgate_kernel_main(): the program that an accuracy test of kernels is.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <toml++/toml.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <toml++/toml.h>
 
 #include "harness/interface/kernel_run.hpp"
 #include "harness/interface/last_error.hpp"
@@ -58,7 +58,8 @@ std::string hex_words(const ulpgate_kernel& k, const std::vector<long double>& a
   return text;
 }
 
-std::string reproducer(const std::string& program, const ulpgate_kernel& k, const std::vector<long double>& args) {
+std::string reproducer(const std::string& program, const ulpgate_kernel& k,
+                       const std::vector<long double>& args) {
   return fmt::format("{} --kernel {} --type '{}' --at {}", program, k.name, k.type, hex_words(k, args));
 }
 
@@ -94,7 +95,9 @@ std::map<std::string, double> read_budget(const std::string& file) {
     if (rows == nullptr) throw std::invalid_argument(fmt::format("{}: no table [max_ulp]", file));
     for (const auto& [key, node] : *rows) {
       const double limit = node.value_or(-1.0);
-      if (!(limit >= 0)) throw std::invalid_argument(fmt::format("{}:{}: '{}' must be a number from 0 on", file, node.source().begin.line, key.str()));
+      if (!(limit >= 0))
+        throw std::invalid_argument(
+            fmt::format("{}:{}: '{}' must be a number from 0 on", file, node.source().begin.line, key.str()));
       limits[std::string(key.str())] = limit;
     }
     return limits;
@@ -124,9 +127,12 @@ double rounded_up(double ulp) {
 }
 
 void write_budget(const std::string& file, const std::vector<Worst>& worst) {
-  std::string text = "# The largest errors in ULP of each kernel, type and part; written by --budget FILE --update.\n[max_ulp]\n";
+  std::string text =
+      "# The largest errors in ULP of each kernel, type and part; written by --budget FILE "
+      "--update.\n[max_ulp]\n";
   for (const auto& w : worst)
-    if (w.row != nullptr) text += fmt::format("\"{}\" = {:#.6g}\n", key_of(*w.kernel, w.part), rounded_up(w.row->largest_ulp));
+    if (w.row != nullptr)
+      text += fmt::format("\"{}\" = {:#.6g}\n", key_of(*w.kernel, w.part), rounded_up(w.row->largest_ulp));
   write_file(file, text);
 }
 
@@ -165,7 +171,8 @@ void print_point(const ulpgate_kernel& k, const std::vector<long double>& args) 
     } else {
       fmt::print("  outcome          {}\n", name_of(at.judgement.outcome));
     }
-    fmt::print("  condition number {:.6g}: half an ULP in the arguments costs up to so many ULP\n", at.condition);
+    fmt::print("  condition number {:.6g}: half an ULP in the arguments costs up to so many ULP\n",
+               at.condition);
   }
 }
 
@@ -175,7 +182,8 @@ class Program {
       : name_(std::move(name)), o_(std::move(o)) {
     for (std::size_t i = 0; i < count; ++i) {
       const ulpgate_kernel& k = kernels[i];
-      if ((o_.kernel.empty() || o_.kernel == k.name) && (o_.type.empty() || o_.type == k.type)) kernels_.push_back(&k);
+      if ((o_.kernel.empty() || o_.kernel == k.name) && (o_.type.empty() || o_.type == k.type))
+        kernels_.push_back(&k);
     }
     if (kernels_.empty()) throw std::invalid_argument("no kernel of that name and type");
   }
@@ -190,7 +198,8 @@ class Program {
       for (auto& w : worst_of(*k, rows.back())) worst.push_back(w);
     }
     if (!o_.records.empty()) write_records(rows);
-    if (std::ranges::all_of(worst, [](const Worst& w) { return w.row == nullptr && w.mismatching.empty(); })) {
+    if (std::ranges::all_of(worst,
+                            [](const Worst& w) { return w.row == nullptr && w.mismatching.empty(); })) {
       fmt::print(stderr, "{}: nothing measured\n", name_);
       return skipped;
     }
@@ -205,7 +214,8 @@ class Program {
   int look() {
     const ulpgate_kernel& k = *kernels_.front();
     if (o_.at.size() != static_cast<std::size_t>(k.arguments))
-      throw std::invalid_argument(fmt::format("{} takes {} arguments, found {}", k.name, k.arguments, o_.at.size()));
+      throw std::invalid_argument(
+          fmt::format("{} takes {} arguments, found {}", k.name, k.arguments, o_.at.size()));
     std::vector<long double> args;
     for (const auto& text : o_.at) args.push_back(parse_number(k, text));
     print_point(k, args);
@@ -221,8 +231,8 @@ class Program {
 
   int judge_all(const std::vector<Worst>& worst) const {
     const auto budget = o_.budget.empty() ? std::map<std::string, double>{} : read_budget(o_.budget);
-    fmt::print("{:<20} {:<12} {:<8} {:>9} {:>12} {:>10} {:>9} {:<8} {}\n", "kernel", "type", "part", "samples", "max ULP",
-               "limit", "condition", "stratum", "argument");
+    fmt::print("{:<20} {:<12} {:<8} {:>9} {:>12} {:>10} {:>9} {:<8} {}\n", "kernel", "type", "part",
+               "samples", "max ULP", "limit", "condition", "stratum", "argument");
     int code = passed;
     for (const auto& w : worst) {
       const ulpgate_kernel& k = *w.kernel;
@@ -230,19 +240,21 @@ class Program {
       if (o_.max_ulp >= 0) limit = o_.max_ulp;
       if (const auto it = budget.find(key_of(k, w.part)); it != budget.end()) limit = it->second;
       if (!o_.budget.empty() && !limit) {
-        fmt::print(stderr, "{}: {} has no row for '{}' (--update writes it)\n", name_, o_.budget, key_of(k, w.part));
+        fmt::print(stderr, "{}: {} has no row for '{}' (--update writes it)\n", name_, o_.budget,
+                   key_of(k, w.part));
         code = above;
       }
       if (w.row != nullptr) {
         const double condition = look_at(k, w.row->args)[static_cast<std::size_t>(w.part)].condition;
-        fmt::print("{:<20} {:<12} {:<8} {:>9} {:>12.6g} {:>10} {:>9.3g} {:<8} {}\n", k.name, k.type, part_name(k, w.part), w.samples,
-                   w.row->largest_ulp, limit ? fmt::format("{:g}", *limit) : "-", condition, w.row->stratum,
+        fmt::print("{:<20} {:<12} {:<8} {:>9} {:>12.6g} {:>10} {:>9.3g} {:<8} {}\n", k.name, k.type,
+                   part_name(k, w.part), w.samples, w.row->largest_ulp,
+                   limit ? fmt::format("{:g}", *limit) : "-", condition, w.row->stratum,
                    hex_words(k, w.row->args));
       }
       if (limit && w.row != nullptr && !(w.row->largest_ulp <= *limit)) {
         code = above;
-        fmt::print("FAILED: {} {}: {:.6g} ULP, limit {:g}\n  {}\n", k.name, k.type, w.row->largest_ulp, *limit,
-                   reproducer(name_, k, w.row->args));
+        fmt::print("FAILED: {} {}: {:.6g} ULP, limit {:g}\n  {}\n", k.name, k.type, w.row->largest_ulp,
+                   *limit, reproducer(name_, k, w.row->args));
       }
       for (const auto* row : w.mismatching) code = std::max(code, show_mismatches(k, *row));
     }
@@ -252,8 +264,9 @@ class Program {
   // A result of the wrong kind is above any limit.
   int show_mismatches(const ulpgate_kernel& k, const PartRow& row) const {
     for (const auto& [what, n] : row.mismatches) {
-      fmt::print("FAILED: {} {} {}: {} at {} of {} points of {}\n  {}\n", k.name, k.type, part_name(k, row.part), what, n, row.samples,
-                 row.stratum, reproducer(name_, k, row.mismatch_args.at(what)));
+      fmt::print("FAILED: {} {} {}: {} at {} of {} points of {}\n  {}\n", k.name, k.type,
+                 part_name(k, row.part), what, n, row.samples, row.stratum,
+                 reproducer(name_, k, row.mismatch_args.at(what)));
     }
     return above;
   }
@@ -269,7 +282,9 @@ int run(int argc, char** argv, const ulpgate_kernel* kernels, std::size_t count)
   Options o;
   app.add_option("--kernel", o.kernel, "this one alone");
   app.add_option("--type", o.type, "this type alone: float, double, long double");
-  app.add_option("--samples", o.samples, "points of each drawn stratum")->capture_default_str()->check(CLI::Range(1, 100000000));
+  app.add_option("--samples", o.samples, "points of each drawn stratum")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000000));
   app.add_option("--seed", o.seed, "seed of what is drawn")->capture_default_str();
   app.add_flag("--extremes", o.extremes, "also the smallest and largest numbers, subnormal ones among them");
   app.add_option("--max-ulp", o.max_ulp, "the largest error that passes")->check(CLI::Range(0.0, 1e300));
@@ -277,7 +292,9 @@ int run(int argc, char** argv, const ulpgate_kernel* kernels, std::size_t count)
   app.add_flag("--update", o.update, "write the budget from what is measured now");
   app.add_option("--records", o.records, "file for the records, a JSON object a line");
   app.add_option("--at", o.at, "one point, the last option: everything known about it")->expected(1, 64);
-  app.footer("Exit codes: 0 passed, 1 above a limit or a result of the wrong kind, 2 bad usage, 4 I/O, 77 nothing could be measured.");
+  app.footer(
+      "Exit codes: 0 passed, 1 above a limit or a result of the wrong kind, 2 bad usage, 4 I/O, 77 nothing "
+      "could be measured.");
   // Numbers may begin with a minus, and -inf is no option.
   int words = argc;
   for (int i = 1; i < argc; ++i) {
@@ -299,7 +316,8 @@ int run(int argc, char** argv, const ulpgate_kernel* kernels, std::size_t count)
 }  // namespace
 }  // namespace ulpgate::kernel_test
 
-extern "C" int ulpgate_kernel_main(int argc, char** argv, const struct ulpgate_kernel* kernels, size_t count) {
+extern "C" int ulpgate_kernel_main(int argc, char** argv, const struct ulpgate_kernel* kernels,
+                                   size_t count) {
   using namespace ulpgate::kernel_test;
   try {
     return run(argc, argv, kernels, count);

@@ -11,24 +11,6 @@ namespace ulpgate::kernel_test {
 
 namespace {
 
-// SplitMix64 (Steele, Lea, Flood 2014).
-class Stream {
- public:
-  explicit Stream(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t word() {
-    state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-  }
-  // Of [0, 1), with all 64 bits.
-  long double share() { return static_cast<long double>(word()) * 0x1p-64L; }
-
- private:
-  std::uint64_t state_;
-};
-
 struct Type {
   int digits;
   int least_exponent;  // of the smallest positive number
@@ -37,10 +19,12 @@ struct Type {
 
 Type type_of(const std::string& name) {
   if (name == "float") {
-    return {std::numeric_limits<float>::digits, -149, [](long double x) { return static_cast<long double>(static_cast<float>(x)); }};
+    return {std::numeric_limits<float>::digits, -149,
+            [](long double x) { return static_cast<long double>(static_cast<float>(x)); }};
   }
   if (name == "double") {
-    return {std::numeric_limits<double>::digits, -1074, [](long double x) { return static_cast<long double>(static_cast<double>(x)); }};
+    return {std::numeric_limits<double>::digits, -1074,
+            [](long double x) { return static_cast<long double>(static_cast<double>(x)); }};
   }
   using L = std::numeric_limits<long double>;
   return {L::digits, L::min_exponent - L::digits, [](long double x) { return x; }};
@@ -92,8 +76,10 @@ class Maker {
   }
   [[nodiscard]] long double neighbour(long double x, int towards) const {
     const long double to = towards > 0 ? HUGE_VALL : -HUGE_VALL;
-    if (type_.digits == std::numeric_limits<float>::digits) return std::nextafter(static_cast<float>(x), static_cast<float>(to));
-    if (type_.digits == std::numeric_limits<double>::digits) return std::nextafter(static_cast<double>(x), static_cast<double>(to));
+    if (type_.digits == std::numeric_limits<float>::digits)
+      return std::nextafter(static_cast<float>(x), static_cast<float>(to));
+    if (type_.digits == std::numeric_limits<double>::digits)
+      return std::nextafter(static_cast<double>(x), static_cast<double>(to));
     return std::nextafter(x, to);
   }
 
@@ -105,9 +91,11 @@ class Maker {
     const long double least = negative ? std::max(0.0L, -high) : std::max(0.0L, low);
     if (!(most > 0)) return kept(j, low);
     const int top = std::ilogb(most);
-    // Down to 2^-40 of the largest where the range holds zero: below that all is the same to most kernels, and edges have it.
+    // Down to 2^-40 of the largest where the range holds zero: below that all is the same to most kernels,
+    // and edges have it.
     const int bottom = least > 0 ? std::ilogb(least) : std::max(type_.least_exponent, top - 40);
-    const int exponent = bottom + static_cast<int>(stream_.word() % static_cast<std::uint64_t>(top - bottom + 1));
+    const int exponent =
+        bottom + static_cast<int>(stream_.word() % static_cast<std::uint64_t>(top - bottom + 1));
     const long double size = std::ldexp(1 + stream_.share(), exponent);
     return kept(j, negative ? -size : size);
   }
@@ -163,14 +151,15 @@ class Maker {
 
   const ulpgate_kernel& kernel_;
   Type type_;
-  Stream stream_;
+  SplitMix64 stream_;
   std::size_t arguments_;
   long double near_ = 0;
 };
 
 }  // namespace
 
-std::vector<Points> points_of(const ulpgate_kernel& kernel, std::uint64_t samples, std::uint64_t seed, bool extremes) {
+std::vector<Points> points_of(const ulpgate_kernel& kernel, std::uint64_t samples, std::uint64_t seed,
+                              bool extremes) {
   return Maker(kernel, seed).make(samples, extremes);
 }
 

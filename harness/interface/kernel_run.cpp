@@ -28,7 +28,8 @@ auto in_type(const ulpgate_kernel& kernel, With with) {
   if (type == "float") return with(0.0F);
   if (type == "double") return with(0.0);
   if (type == "long double") return with(0.0L);
-  throw std::invalid_argument(fmt::format("kernel {}: '{}' is no type that kernels are tested in", kernel.name, type));
+  throw std::invalid_argument(
+      fmt::format("kernel {}: '{}' is no type that kernels are tested in", kernel.name, type));
 }
 
 class WideKernel {
@@ -125,7 +126,8 @@ std::vector<PartRow> rows_of(const ulpgate_kernel& kernel, const Points& points)
   const std::vector<Real> results = results_of<Real>(kernel, points.values);
   WideKernel wide(kernel);
   std::vector<PartRow> rows;
-  for (int part = 0; part < kernel.results; ++part) rows.push_back({points.stratum, part, 0, -1, 0, {}, {}, {}});
+  for (int part = 0; part < kernel.results; ++part)
+    rows.push_back({points.stratum, part, 0, -1, 0, {}, {}, {}});
   for (std::size_t i = 0; i * arguments < points.values.size(); ++i) {
     const long double* x = &points.values[i * arguments];
     wide.evaluate(x);
@@ -154,7 +156,8 @@ std::vector<PartRow> rows_of(const ulpgate_kernel& kernel, const Points& points)
 
 }  // namespace
 
-std::vector<PartRow> run_kernel(const ulpgate_kernel& kernel, std::uint64_t samples, std::uint64_t seed, bool extremes) {
+std::vector<PartRow> run_kernel(const ulpgate_kernel& kernel, std::uint64_t samples, std::uint64_t seed,
+                                bool extremes) {
   std::vector<PartRow> all;
   for (const auto& points : points_of(kernel, samples, seed, extremes)) {
     const auto rows = in_type(kernel, [&](auto x) { return rows_of<decltype(x)>(kernel, points); });
@@ -172,7 +175,8 @@ std::vector<PartAt> look_at(const ulpgate_kernel& kernel, const std::vector<long
     for (std::size_t part = 0; part < results.size(); ++part) {
       wide.evaluate(args.data());
       const Judgement j = judged(results[part], wide.result(part));
-      PartAt at{to_hexfloat(results[part]), to_decimal(results[part]), to_decimal(wide.result(part), 25), j, 0};
+      PartAt at{to_hexfloat(results[part]), to_decimal(results[part]), to_decimal(wide.result(part), 25), j,
+                0};
       at.condition = wide.condition(args.data(), part);
       parts.push_back(std::move(at));
     }
@@ -189,7 +193,8 @@ long double parse_number(const ulpgate_kernel& kernel, const std::string& text) 
   char* end = nullptr;
   mpfr_strtofr(v.get(), text.c_str(), &end, 0, MPFR_RNDN);
   if (text.empty() || *end != '\0') throw std::invalid_argument(fmt::format("'{}' is no number", text));
-  return in_type(kernel, [&](auto zero) { return static_cast<long double>(from_mpfr<decltype(zero)>(v.get())); });
+  return in_type(kernel,
+                 [&](auto zero) { return static_cast<long double>(from_mpfr<decltype(zero)>(v.get())); });
 }
 
 }  // namespace ulpgate::kernel_test

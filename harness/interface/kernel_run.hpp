@@ -16,8 +16,8 @@ struct PartAt {
   std::string decimal;  // 17 digits, or as many as the type needs
   std::string exact;    // decimal, 25 digits
   Judgement judgement;
-  // What half a unit of each argument costs, in units of the result: C(f) of relative changes.  NaN where the wide
-  // function gives no number.
+  // What half a unit of each argument costs, in units of the result: C(f) of relative changes.  NaN where the
+  // wide function gives no number.
   double condition = 0;
 };
 
@@ -32,7 +32,8 @@ struct PartRow {
   std::map<std::string, std::vector<long double>> mismatch_args;  // of the first of each
 };
 
-[[nodiscard]] std::vector<PartRow> run_kernel(const ulpgate_kernel& kernel, std::uint64_t samples, std::uint64_t seed, bool extremes);
+[[nodiscard]] std::vector<PartRow> run_kernel(const ulpgate_kernel& kernel, std::uint64_t samples,
+                                              std::uint64_t seed, bool extremes);
 [[nodiscard]] std::vector<PartAt> look_at(const ulpgate_kernel& kernel, const std::vector<long double>& args);
 
 [[nodiscard]] std::string hexfloat(const ulpgate_kernel& kernel, long double x);

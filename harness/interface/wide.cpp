@@ -1,8 +1,8 @@
 // Wide numbers: MPFR behind plain handles.
-#include "harness/interface/wide_value.hpp"
-
 #include <memory>
 #include <vector>
+
+#include "harness/interface/wide_value.hpp"
 
 namespace {
 

@@ -44,7 +44,7 @@ struct ulpgate_channel {
   uint32_t mode;
   uint32_t state;
   int32_t signal;
-  uint32_t rounds;   /* how often, where the batch is whole */
+  uint32_t rounds;  /* how often, where the batch is whole */
   uint32_t changed; /* 1 where a point or the batch left another environment behind: the first such one is
                        `after` */
   struct ulpgate_environment after;

@@ -1,4 +1,5 @@
-// REQUIRE_THAT(got, ulpgate::WithinUlp(exact, limit)) for Catch2 2 and 3; `exact` is a number of the type of `got` or ulpgate::call().
+// REQUIRE_THAT(got, ulpgate::WithinUlp(exact, limit)) for Catch2 2 and 3; `exact` is a number of the type of
+// `got` or ulpgate::call().
 #pragma once
 
 #if __has_include(<catch2/matchers/catch_matchers.hpp>)

@@ -1,4 +1,5 @@
-// EXPECT_ULP_LE(got, exact, limit) and ASSERT_ULP_LE(...) for GoogleTest; `exact` is a number of the type of `got` or ulpgate::call().
+// EXPECT_ULP_LE(got, exact, limit) and ASSERT_ULP_LE(...) for GoogleTest; `exact` is a number of the type of
+// `got` or ulpgate::call().
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,8 +8,8 @@
 
 namespace ulpgate {
 template <class Real, class Exact>
-::testing::AssertionResult ulp_le(const char* got_words, const char* exact_words, const char* /*limit_words*/, const Real& got,
-                                  const Exact& exact, double limit) {
+::testing::AssertionResult ulp_le(const char* got_words, const char* exact_words, const char* /*limit_words*/,
+                                  const Real& got, const Exact& exact, double limit) {
   UlpResult r;
   if constexpr (std::is_arithmetic_v<Exact>) {
     r = ulp_of(got, static_cast<Real>(exact), limit);

@@ -2,7 +2,8 @@
 //
 // A kernel is a function template of some numbers of one type,
 //
-//   template <class Real> Real length(Real x, Real y);                  // or std::array<Real, N>, or a struct of Reals (Fields)
+//   template <class Real> Real length(Real x, Real y);                  // or std::array<Real, N>, or a
+//   struct of Reals (Fields)
 //
 // which is instantiated here for a built-in type, with the options of this file, and for ulpgate::Wide.
 #pragma once
@@ -36,7 +37,8 @@ struct Parts<std::array<Real, N>> {
 
 // A struct template of Reals as a result:
 //   template <class Real> struct Force { Real normal, shear; };
-//   template <class Real> struct ulpgate::Parts<Force<Real>> : ulpgate::Fields<&Force<Real>::normal, &Force<Real>::shear> {};
+//   template <class Real> struct ulpgate::Parts<Force<Real>> : ulpgate::Fields<&Force<Real>::normal,
+//   &Force<Real>::shear> {};
 template <auto... Members>
 struct Fields {
   static constexpr std::size_t count = sizeof...(Members);
@@ -71,8 +73,9 @@ void evaluate(const void* args, void* results, std::size_t count) {
   auto* y = static_cast<Real*>(results);
   for (std::size_t i = 0; i < count; ++i) {
     const Result r = call<Call, Real>(x + i * N, std::make_index_sequence<N>());
-    store(r, [&](std::size_t part, const Real& value) { y[i * parts + part] = value; },
-          std::make_index_sequence<parts>());
+    store(
+        r, [&](std::size_t part, const Real& value) { y[i * parts + part] = value; },
+        std::make_index_sequence<parts>());
   }
 }
 
@@ -82,15 +85,18 @@ void evaluate_wide(const ulpgate_wide* const* args, ulpgate_wide* const* results
   std::array<Wide, N> x;
   for (std::size_t i = 0; i < N; ++i) ulpgate_wide_assign(x[i].handle(), args[i]);
   const Result r = call<Call, Wide>(x.data(), std::make_index_sequence<N>());
-  store(r, [&](std::size_t part, const Wide& value) { ulpgate_wide_assign(results[part], value.handle()); },
-        std::make_index_sequence<Parts<Result>::count>());
+  store(
+      r, [&](std::size_t part, const Wide& value) { ulpgate_wide_assign(results[part], value.handle()); },
+      std::make_index_sequence<Parts<Result>::count>());
 }
 
 }  // namespace detail
 
-// Of Call, which has a static template call(x...), in Real; the arrays have N entries and outlive the program.
+// Of Call, which has a static template call(x...), in Real; the arrays have N entries and outlive the
+// program.
 template <class Call, class Real, std::size_t N>
-ulpgate_kernel kernel(const char* name, const char* type, const char* const* names, const double* low, const double* high) {
+ulpgate_kernel kernel(const char* name, const char* type, const char* const* names, const double* low,
+                      const double* high) {
   using Result = detail::ResultOf<Call, Real, N>;
   static_assert(Parts<Result>::count == Parts<detail::ResultOf<Call, Wide, N>>::count);
   return {name,

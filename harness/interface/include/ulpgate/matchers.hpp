@@ -15,8 +15,9 @@ namespace ulpgate {
 
 template <class Real>
 constexpr const char* type_name() {
-  static_assert(std::is_same_v<Real, float> || std::is_same_v<Real, double> || std::is_same_v<Real, long double>,
-                "ulpgate: errors are measured in float, double and long double");
+  static_assert(
+      std::is_same_v<Real, float> || std::is_same_v<Real, double> || std::is_same_v<Real, long double>,
+      "ulpgate: errors are measured in float, double and long double");
   return std::is_same_v<Real, float> ? "float" : std::is_same_v<Real, double> ? "double" : "long double";
 }
 
@@ -48,7 +49,8 @@ template <class Real>
 UlpResult ulp_of(Real got, Real exact, double limit) {
   std::array<char, 2048> text{};
   double ulp = 0;
-  const int code = ulpgate_describe_value(type_name<Real>(), &got, &exact, limit, &ulp, text.data(), text.size());
+  const int code =
+      ulpgate_describe_value(type_name<Real>(), &got, &exact, limit, &ulp, text.data(), text.size());
   return detail::result(code, ulp, limit, text);
 }
 template <class Real, std::size_t N>
@@ -57,8 +59,8 @@ UlpResult ulp_of(Real got, const Call<Real, N>& exact, double limit) {
     return {false, 0, std::string("ulpgate: ") + exact.function + " is no function of so many arguments"};
   std::array<char, 2048> text{};
   double ulp = 0;
-  const int code = ulpgate_describe_call(type_name<Real>(), &got, exact.function, exact.args.data(), limit, &ulp, text.data(),
-                                         text.size());
+  const int code = ulpgate_describe_call(type_name<Real>(), &got, exact.function, exact.args.data(), limit,
+                                         &ulp, text.data(), text.size());
   return detail::result(code, ulp, limit, text);
 }
 

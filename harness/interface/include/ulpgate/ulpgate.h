@@ -1,9 +1,10 @@
-/* The C interface of ulpgate: errors in ULP, exact values, numbers of any precision, and accuracy tests of functions of one's
- * own.  C99 and C++; plain data alone crosses it, so that it does not matter how its user was compiled.
+/* The C interface of ulpgate: errors in ULP, exact values, numbers of any precision, and accuracy tests of
+ * functions of one's own.  C99 and C++; plain data alone crosses it, so that it does not matter how its user
+ * was compiled.
  *
  * Types are named "float", "double" and "long double"; numbers are passed by address.  Functions are those of
- * `ulpgate list functions`.  What returns int returns one of the exit codes of the program: 0 done, 2 an argument is wrong,
- * 3 nothing measured, 4 a resource is missing; ulpgate_last_error() then says what. */
+ * `ulpgate list functions`.  What returns int returns one of the exit codes of the program: 0 done, 2 an
+ * argument is wrong, 3 nothing measured, 4 a resource is missing; ulpgate_last_error() then says what. */
 #ifndef ULPGATE_ULPGATE_H
 #define ULPGATE_ULPGATE_H
 
@@ -27,38 +28,44 @@ ULPGATE_API const char* ulpgate_last_error(void);
 
 /* ---- errors of results ---- */
 
-/* Of `count` results of a function at `count` points: ulp[i] is |got - exact| / ulp(exact), rounded up; infinity where the result is of
- * another kind than the exact value (NaN, infinity, a zero of the other sign, ...), which outcome[i] names by its number in
- * ulpgate_outcome_name().  args holds the arguments of a point side by side.  Either output may be null. */
-ULPGATE_API int ulpgate_ulp_errors(const char* function, const char* type, const void* args, const void* got, size_t count,
-                                   double* ulp, unsigned char* outcome);
+/* Of `count` results of a function at `count` points: ulp[i] is |got - exact| / ulp(exact), rounded up;
+ * infinity where the result is of another kind than the exact value (NaN, infinity, a zero of the other sign,
+ * ...), which outcome[i] names by its number in ulpgate_outcome_name().  args holds the arguments of a point
+ * side by side.  Either output may be null. */
+ULPGATE_API int ulpgate_ulp_errors(const char* function, const char* type, const void* args, const void* got,
+                                   size_t count, double* ulp, unsigned char* outcome);
 /* "finite", "nan", ...; null beyond the last. */
 ULPGATE_API const char* ulpgate_outcome_name(int outcome);
 
-/* The error of `got` against an exact value that is a number of the type, or against a function's at `args`; writes a
- * text of several lines that says all that is known: distance, both values in hexadecimal and 17 digits, the exact value, the limit, and
- * for a function the condition number and what errors of half a unit in its arguments would cost alone. */
-ULPGATE_API int ulpgate_describe_value(const char* type, const void* got, const void* exact, double limit_ulp, double* ulp,
-                                       char* text, size_t size);
-ULPGATE_API int ulpgate_describe_call(const char* type, const void* got, const char* function, const void* args, double limit_ulp,
-                                      double* ulp, char* text, size_t size);
+/* The error of `got` against an exact value that is a number of the type, or against a function's at `args`;
+ * writes a text of several lines that says all that is known: distance, both values in hexadecimal and 17
+ * digits, the exact value, the limit, and for a function the condition number and what errors of half a unit
+ * in its arguments would cost alone. */
+ULPGATE_API int ulpgate_describe_value(const char* type, const void* got, const void* exact, double limit_ulp,
+                                       double* ulp, char* text, size_t size);
+ULPGATE_API int ulpgate_describe_call(const char* type, const void* got, const char* function,
+                                      const void* args, double limit_ulp, double* ulp, char* text,
+                                      size_t size);
 
-/* The function's value at arguments that are decimal or hexadecimal numbers of any length, to `digits` digits. */
-ULPGATE_API int ulpgate_exact(const char* function, const char* const* args, size_t arguments, int digits, char* text, size_t size);
+/* The function's value at arguments that are decimal or hexadecimal numbers of any length, to `digits`
+ * digits. */
+ULPGATE_API int ulpgate_exact(const char* function, const char* const* args, size_t arguments, int digits,
+                              char* text, size_t size);
 /* How many arguments it takes; 0 where there is no such function of one real result. */
 ULPGATE_API int ulpgate_arity(const char* function);
 
 /* ---- functions of one's own, held over strata ---- */
 
-/* Evaluates `count` points: args holds the arguments of a point side by side, results one number each, both of the type that was asked for.
- * Returns 0; anything else ends the test with that code. */
+/* Evaluates `count` points: args holds the arguments of a point side by side, results one number each, both
+ * of the type that was asked for. Returns 0; anything else ends the test with that code. */
 typedef int (*ulpgate_batch)(void* user, const void* args, void* results, size_t count);
-/* Holds a function to what it is meant to be: over the strata of `ulpgate math`, of `samples` points (uniform and stratified together, binades
- * a half more, and edges and hard arguments), judged against MPFR at four times the precision.  Writes to *json a list of objects, one a
- * stratum: function, type, stratum, samples, seed, max_ulp, mean_ulp, argmax, got, exact, correctly_rounded, mismatch,
- * mismatch_first.  ulpgate_free() takes it back. */
-ULPGATE_API int ulpgate_test_function(const char* function, const char* type, ulpgate_batch evaluate, void* user,
-                                      uint64_t samples, uint64_t seed, char** json);
+/* Holds a function to what it is meant to be: over the strata of `ulpgate math`, of `samples` points (uniform
+ * and stratified together, binades a half more, and edges and hard arguments), judged against MPFR at four
+ * times the precision.  Writes to *json a list of objects, one a stratum: function, type, stratum, samples,
+ * seed, max_ulp, mean_ulp, argmax, got, exact, correctly_rounded, mismatch, mismatch_first.  ulpgate_free()
+ * takes it back. */
+ULPGATE_API int ulpgate_test_function(const char* function, const char* type, ulpgate_batch evaluate,
+                                      void* user, uint64_t samples, uint64_t seed, char** json);
 ULPGATE_API void ulpgate_free(char* text);
 
 /* ---- numbers of any precision ---- */
@@ -118,9 +125,11 @@ ULPGATE_API void ulpgate_wide_assign(ulpgate_wide* to, const ulpgate_wide* from)
 ULPGATE_API void ulpgate_wide_assign_double(ulpgate_wide* to, double from);
 ULPGATE_API void ulpgate_wide_assign_long_double(ulpgate_wide* to, long double from);
 /* to = operation(a) or operation(a, b); b is null for those of one argument. */
-ULPGATE_API void ulpgate_wide_apply(enum ulpgate_operation operation, ulpgate_wide* to, const ulpgate_wide* a, const ulpgate_wide* b);
+ULPGATE_API void ulpgate_wide_apply(enum ulpgate_operation operation, ulpgate_wide* to, const ulpgate_wide* a,
+                                    const ulpgate_wide* b);
 /* to = a b + c, rounded once. */
-ULPGATE_API void ulpgate_wide_fma(ulpgate_wide* to, const ulpgate_wide* a, const ulpgate_wide* b, const ulpgate_wide* c);
+ULPGATE_API void ulpgate_wide_fma(ulpgate_wide* to, const ulpgate_wide* a, const ulpgate_wide* b,
+                                  const ulpgate_wide* c);
 /* to = x 2^n. */
 ULPGATE_API void ulpgate_wide_ldexp(ulpgate_wide* to, const ulpgate_wide* x, long n);
 /* -1, 0, 1; 2 where one is a NaN. */
@@ -146,9 +155,10 @@ struct ulpgate_kernel {
   /* The same function of one point. */
   void (*evaluate_wide)(const ulpgate_wide* const* args, ulpgate_wide* const* results);
 };
-/* A program of its own: draws arguments, holds every result to the wide one, prints a table and reproducers.  Options: --help.
- * Returns 0 passed, 1 above a limit, 2 bad usage, 77 nothing could be measured. */
-ULPGATE_API int ulpgate_kernel_main(int argc, char** argv, const struct ulpgate_kernel* kernels, size_t count);
+/* A program of its own: draws arguments, holds every result to the wide one, prints a table and reproducers.
+ * Options: --help. Returns 0 passed, 1 above a limit, 2 bad usage, 77 nothing could be measured. */
+ULPGATE_API int ulpgate_kernel_main(int argc, char** argv, const struct ulpgate_kernel* kernels,
+                                    size_t count);
 
 #ifdef __cplusplus
 }

@@ -1,8 +1,8 @@
 // ulpgate::Wide: a number of some hundred bits in which kernels are evaluated for their reference.
 //
-// An opaque handle: a file that uses it compiles as fast as one with doubles, and with any options; its arithmetic is that of
-// the library, whatever -ffast-math allows here.  Kernels must name no number type: `using std::sqrt; sqrt(x)`, Real(0.5),
-// Real y = x.
+// An opaque handle: a file that uses it compiles as fast as one with doubles, and with any options; its
+// arithmetic is that of the library, whatever -ffast-math allows here.  Kernels must name no number type:
+// `using std::sqrt; sqrt(x)`, Real(0.5), Real y = x.
 #pragma once
 
 #include <type_traits>
@@ -43,46 +43,61 @@ class Wide {
   template <class Number, std::enable_if_t<std::is_floating_point_v<Number>, int> = 0>
   operator Number() const {  // NOLINT(google-explicit-constructor)
     static_assert(!std::is_floating_point_v<Number>,
-                  "ulpgate: this kernel turns a Real into a built-in type, so that its reference would be no better than itself. "
+                  "ulpgate: this kernel turns a Real into a built-in type, so that its reference would be no "
+                  "better than itself. "
                   "Write Real instead of double or auto y = double(x); for an index, int(to_double(x)).");
     return {};
   }
 
-#define ULPGATE_ARITHMETIC(SIGN, OPERATION)                                                                    \
-  friend Wide operator SIGN(const Wide& a, const Wide& b) { return apply(OPERATION, a, &b); }                  \
-  /* Better matches than the built-in operators, which would take the conversion that is no way out. */        \
-  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0>                                       \
-  friend Wide operator SIGN(const Wide& a, N b) {                                                              \
-    return a SIGN Wide(b);                                                                                     \
-  }                                                                                                            \
-  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0>                                       \
-  friend Wide operator SIGN(N a, const Wide& b) {                                                              \
-    return Wide(a) SIGN b;                                                                                     \
+#define ULPGATE_ARITHMETIC(SIGN, OPERATION)                                                             \
+  friend Wide operator SIGN(const Wide& a, const Wide& b) {                                             \
+    return apply(OPERATION, a, &b);                                                                     \
+  }                                                                                                     \
+  /* Better matches than the built-in operators, which would take the conversion that is no way out. */ \
+  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0>                                \
+  friend Wide operator SIGN(const Wide& a, N b) {                                                       \
+    return a SIGN Wide(b);                                                                              \
+  }                                                                                                     \
+  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0>                                \
+  friend Wide operator SIGN(N a, const Wide& b) {                                                       \
+    return Wide(a) SIGN b;                                                                              \
   }
   ULPGATE_ARITHMETIC(+, ULPGATE_ADD)
   ULPGATE_ARITHMETIC(-, ULPGATE_SUB)
   ULPGATE_ARITHMETIC(*, ULPGATE_MUL)
   ULPGATE_ARITHMETIC(/, ULPGATE_DIV)
 #undef ULPGATE_ARITHMETIC
-  Wide operator-() const { return apply(ULPGATE_NEG, *this, nullptr); }
-  Wide operator+() const { return *this; }
-  Wide& operator+=(const Wide& b) { return *this = *this + b; }
-  Wide& operator-=(const Wide& b) { return *this = *this - b; }
-  Wide& operator*=(const Wide& b) { return *this = *this * b; }
-  Wide& operator/=(const Wide& b) { return *this = *this / b; }
+  Wide operator-() const {
+    return apply(ULPGATE_NEG, *this, nullptr);
+  }
+  Wide operator+() const {
+    return *this;
+  }
+  Wide& operator+=(const Wide& b) {
+    return *this = *this + b;
+  }
+  Wide& operator-=(const Wide& b) {
+    return *this = *this - b;
+  }
+  Wide& operator*=(const Wide& b) {
+    return *this = *this * b;
+  }
+  Wide& operator/=(const Wide& b) {
+    return *this = *this / b;
+  }
 
-#define ULPGATE_COMPARISON(SIGN, CONDITION)                                      \
-  friend bool operator SIGN(const Wide& a, const Wide& b) {                      \
-    const int order = ulpgate_wide_compare(a.x_, b.x_);                          \
-    return CONDITION;                                                            \
-  }                                                                              \
-  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0>         \
-  friend bool operator SIGN(const Wide& a, N b) {                                \
-    return a SIGN Wide(b);                                                       \
-  }                                                                              \
-  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0>         \
-  friend bool operator SIGN(N a, const Wide& b) {                                \
-    return Wide(a) SIGN b;                                                       \
+#define ULPGATE_COMPARISON(SIGN, CONDITION)                              \
+  friend bool operator SIGN(const Wide& a, const Wide& b) {              \
+    const int order = ulpgate_wide_compare(a.x_, b.x_);                  \
+    return CONDITION;                                                    \
+  }                                                                      \
+  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0> \
+  friend bool operator SIGN(const Wide& a, N b) {                        \
+    return a SIGN Wide(b);                                               \
+  }                                                                      \
+  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0> \
+  friend bool operator SIGN(N a, const Wide& b) {                        \
+    return Wide(a) SIGN b;                                               \
   }
   ULPGATE_COMPARISON(==, order == 0)
   ULPGATE_COMPARISON(!=, order != 0)
@@ -102,20 +117,34 @@ class Wide {
     ulpgate_wide_ldexp(r.x_, x.x_, n);
     return r;
   }
-  friend bool isnan(const Wide& x) { return ulpgate_wide_kind(x.x_) == 2; }
-  friend bool isinf(const Wide& x) { return ulpgate_wide_kind(x.x_) == 1; }
-  friend bool isfinite(const Wide& x) { return ulpgate_wide_kind(x.x_) == 0; }
-  friend bool signbit(const Wide& x) { return ulpgate_wide_sign_bit(x.x_) != 0; }
+  friend bool isnan(const Wide& x) {
+    return ulpgate_wide_kind(x.x_) == 2;
+  }
+  friend bool isinf(const Wide& x) {
+    return ulpgate_wide_kind(x.x_) == 1;
+  }
+  friend bool isfinite(const Wide& x) {
+    return ulpgate_wide_kind(x.x_) == 0;
+  }
+  friend bool signbit(const Wide& x) {
+    return ulpgate_wide_sign_bit(x.x_) != 0;
+  }
   // For branches and indices; what is computed with it afterwards is a double.
-  friend double to_double(const Wide& x) { return ulpgate_wide_to_double(x.x_); }
+  friend double to_double(const Wide& x) {
+    return ulpgate_wide_to_double(x.x_);
+  }
 
   static Wide apply(ulpgate_operation operation, const Wide& a, const Wide* b) {
     Wide r;
     ulpgate_wide_apply(operation, r.x_, a.x_, b == nullptr ? nullptr : b->x_);
     return r;
   }
-  [[nodiscard]] const ulpgate_wide* handle() const { return x_; }
-  [[nodiscard]] ulpgate_wide* handle() { return x_; }
+  [[nodiscard]] const ulpgate_wide* handle() const {
+    return x_;
+  }
+  [[nodiscard]] ulpgate_wide* handle() {
+    return x_;
+  }
 
  private:
   ulpgate_wide* x_;
@@ -127,17 +156,21 @@ double to_double(Number x) {
   return static_cast<double>(x);
 }
 
-#define ULPGATE_WIDE_1(NAME, OPERATION) \
-  inline Wide NAME(const Wide& x) { return Wide::apply(OPERATION, x, nullptr); }
-#define ULPGATE_WIDE_2(NAME, OPERATION)                                                                  \
-  inline Wide NAME(const Wide& a, const Wide& b) { return Wide::apply(OPERATION, a, &b); }               \
-  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0>                                 \
-  Wide NAME(const Wide& a, N b) {                                                                        \
-    return NAME(a, Wide(b));                                                                             \
-  }                                                                                                      \
-  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0>                                 \
-  Wide NAME(N a, const Wide& b) {                                                                        \
-    return NAME(Wide(a), b);                                                                             \
+#define ULPGATE_WIDE_1(NAME, OPERATION)        \
+  inline Wide NAME(const Wide& x) {            \
+    return Wide::apply(OPERATION, x, nullptr); \
+  }
+#define ULPGATE_WIDE_2(NAME, OPERATION)                                  \
+  inline Wide NAME(const Wide& a, const Wide& b) {                       \
+    return Wide::apply(OPERATION, a, &b);                                \
+  }                                                                      \
+  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0> \
+  Wide NAME(const Wide& a, N b) {                                        \
+    return NAME(a, Wide(b));                                             \
+  }                                                                      \
+  template <class N, std::enable_if_t<std::is_arithmetic_v<N>, int> = 0> \
+  Wide NAME(N a, const Wide& b) {                                        \
+    return NAME(Wide(a), b);                                             \
   }
 ULPGATE_WIDE_1(fabs, ULPGATE_FABS)
 ULPGATE_WIDE_1(abs, ULPGATE_FABS)
@@ -187,12 +220,12 @@ ULPGATE_WIDE_2(copysign, ULPGATE_COPYSIGN)
 
 // std::sqrt(x) with a qualified name finds no function of a class: the text says what to write instead.
 namespace std {
-#define ULPGATE_QUALIFIED(NAME)                                                                                     \
-  template <class Real, std::enable_if_t<std::is_same_v<Real, ulpgate::Wide>, int> = 0>                             \
-  Real NAME(const Real&) {                                                                                          \
-    static_assert(!std::is_same_v<Real, ulpgate::Wide>,                                                             \
-                  "ulpgate: std::" #NAME "(x) names the built-in types' function. Write: using std::" #NAME "; " #NAME \
-                  "(x)");                                                                                           \
+#define ULPGATE_QUALIFIED(NAME)                                                                             \
+  template <class Real, std::enable_if_t<std::is_same_v<Real, ulpgate::Wide>, int> = 0>                     \
+  Real NAME(const Real&) {                                                                                  \
+    static_assert(!std::is_same_v<Real, ulpgate::Wide>,                                                     \
+                  "ulpgate: std::" #NAME "(x) names the built-in types' function. Write: using std::" #NAME \
+                  "; " #NAME "(x)");                                                                        \
   }
 ULPGATE_QUALIFIED(fabs)
 ULPGATE_QUALIFIED(abs)
@@ -212,12 +245,13 @@ ULPGATE_QUALIFIED(tanh)
 ULPGATE_QUALIFIED(floor)
 ULPGATE_QUALIFIED(ceil)
 #undef ULPGATE_QUALIFIED
-#define ULPGATE_MIXED(NAME)                                                                                           \
-  template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>                                    \
-  ulpgate::Wide NAME(const ulpgate::Wide& a, Number) {                                                                \
-    static_assert(!std::is_arithmetic_v<Number>, "ulpgate: std::" #NAME "(x, 0.0) mixes Real and a built-in type. "   \
-                                                 "Write: " #NAME "(x, Real(0.0))");                                   \
-    return a;                                                                                                         \
+#define ULPGATE_MIXED(NAME)                                                                  \
+  template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>           \
+  ulpgate::Wide NAME(const ulpgate::Wide& a, Number) {                                       \
+    static_assert(!std::is_arithmetic_v<Number>, "ulpgate: std::" #NAME                      \
+                                                 "(x, 0.0) mixes Real and a built-in type. " \
+                                                 "Write: " #NAME "(x, Real(0.0))");          \
+    return a;                                                                                \
   }
 ULPGATE_MIXED(max)
 ULPGATE_MIXED(min)
