@@ -193,6 +193,23 @@ def test_a_broken_list_names_its_line(tmp_path, library, rows, said):
     assert code == 2 and said in err and "list.toml" in err, err
 
 
+def test_the_lists_that_are_built_in(tmp_path):
+    """Each is read whole; what is not installed is named, what this processor lacks is left out."""
+    small = ["--samples", "100", "--evaluations", "0"]
+    words = ["--functions", "exp,atan2", "--types", "float"]
+    code, text, err = run("claims", "libmvec", *words, "--out", tmp_path / "a", *small)
+    if "cannot be loaded" in err:
+        pytest.skip("no libmvec")
+    assert code == 0 and text.count("holds") == 6 - err.count(": left out"), text + err
+    code, text, err = run(
+        "claims", "sleef", *words, "--symbols", "_u10", "--out", tmp_path / "b", *small
+    )
+    if code == 2:
+        assert "libsleef.so.3" in err and "cannot be loaded" in err
+    else:
+        assert text.count("atan2") >= 1
+
+
 def test_this_c_library_is_held_to_what_it_claims(tmp_path):
     out = tmp_path / "out"
     small = ["--samples", "500", "--evaluations", "2000"]

@@ -3,21 +3,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 
 #include "harness/app/claims/claim.hpp"
-#include "harness/app/machine/environment.hpp"
-#include "harness/app/machine/threads.hpp"
 #include "harness/app/run/plan_run.hpp"
+#include "harness/app/search/search_round.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/core/search/function_search.hpp"
-#include "harness/core/watch/heartbeat.hpp"
 #include "reference/functions/function_info.hpp"
-#include "reference/types/mpfr_value.hpp"
 
 namespace ulpgate::app {
 
@@ -76,28 +72,12 @@ void measure_strata(const ListedFunction& row, const ClaimOptions& o, ClaimFound
   static_cast<void>(run_and_write({std::move(request), {}}, p, nullptr, take));
 }
 
-void run_round(FunctionSearch& search, std::size_t batches, unsigned threads, const Subject& subject) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&](unsigned) {
-    const MpfrThread mpfr;
-    const WorkPlace place(subject.name(), subject.type().token, "search");
-    for (std::size_t i = next++; i < batches; i = next++) search.run_batch(i);
-  };
-  Threads pool(1, threads, work);
-  work(0);
-  pool.join();
-}
-
 Json searched(const Subject& subject, const ClaimOptions& o) {
   const InterruptGuard guard;
   const auto search = make_search(subject, o.seed);
   while (search->evaluations() < o.evaluations) {
     if (interrupted()) throw Failure(Standing::incomplete, "interrupted; --resume goes on");
-    const std::size_t batches = search->begin_round(o.evaluations - search->evaluations());
-    if (batches == 0) break;
-    run_round(*search, batches, threads_of(o), subject);
-    const WorkPlace place(subject.name(), subject.type().token, "search");
-    search->end_round();
+    if (!run_round(*search, o.evaluations - search->evaluations(), threads_of(o), subject)) break;
   }
   Json mismatches = Json::array();
   for (const auto& [outcome, m] : search->mismatches())

@@ -11,6 +11,7 @@
 #include "harness/app/foreign/foreign_options.hpp"
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/machine/threads.hpp"
+#include "harness/app/search/search_round.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
@@ -44,22 +45,6 @@ struct SearchOptions {
 std::string reproducer(const Subject& subject, const Point& point) {
   return fmt::format("ulpgate at {} {} {}{}", subject.name(), subject.type().token,
                      fmt::join(point.args_hex, " "), subject.info().selection);
-}
-
-// The batches of a round on several threads.
-void run_round(FunctionSearch& search, std::size_t batches, unsigned threads, const Subject& subject) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&](unsigned) {
-    const MpfrThread mpfr;
-    const WorkPlace place(subject.name(), subject.type().token, "search");
-    for (std::size_t i = next++; i < batches; i = next++) {
-      search.run_batch(i);
-      check_environment();
-    }
-  };
-  Threads pool(1, threads, work);
-  work(0);
-  pool.join();
 }
 
 // One hunt over the whole domain, hard arguments first, and one that passes over the neighbourhoods of those
@@ -113,10 +98,7 @@ bool hunt(const SearchOptions& o, const Hunts& hunts, unsigned threads, const Su
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
     if (hunts.evaluations() >= limit || (o.evaluations == 0 && elapsed_s >= o.seconds)) return true;
     FunctionSearch& search = hunts.next();
-    run_round(search, search.begin_round(limit - hunts.evaluations()), threads, subject);
-    const WorkPlace place(subject.name(), subject.type().token, "search");
-    search.end_round();
-    check_environment();
+    run_round(search, limit - hunts.evaluations(), threads, subject);
     const std::string now = fmt::format("{:.4g}", hunts.best_error_ulp());
     if (hunts.best_error_ulp() >= 0 && now != shown) {
       const Point point = subject.point(hunts.best().args);
