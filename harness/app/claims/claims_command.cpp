@@ -121,6 +121,7 @@ void write_program(const ListedFunction& row, const BoundFunction& bound, const 
   if (!found.violates(*row.spec.claimed_ulp)) return;
   const bool by_error = found.largest_ulp > *row.spec.claimed_ulp * (1 + ClaimFound::negligible);
   const auto& args = by_error ? found.args : found.mismatches.front().args;
+  if (args.empty()) return;
   const std::string text = program_text(row, bound, args);
   if (text.empty()) return;
   const auto file = std::filesystem::path(o.out) / "violations" / (directory_of(row) + ".c");
@@ -152,6 +153,21 @@ void print_row(const ListedFunction& row, const ClaimFound& found, const std::st
   if (!found.program.empty()) fmt::print("{:20}shown by {}\n", "", found.program);
 }
 
+// A function that does not come to an end is a violation, and no reason to leave the others out.
+ClaimFound held_or_ended(const ListedFunction& row, const BoundFunction& bound, const ClaimOptions& o) {
+  try {
+    return hold_to_claim(row, bound, o);
+  } catch (const Failure& e) {
+    if (e.standing() != Standing::regression) throw;
+    fmt::print(stderr, "ulpgate: {}\n", e.what());
+    ClaimFound found;
+    found.implementation = bound.subject->info().implementation;
+    found.mismatches.push_back({e.what(), 1, {}});
+    found.sample = SampledResults{};
+    return found;
+  }
+}
+
 Verdict run_claims(const ClaimsOptions& o) {
   const auto rows = chosen_rows(o);
   make_directory(o.out);
@@ -166,7 +182,7 @@ Verdict run_claims(const ClaimsOptions& o) {
   for (const auto& row : rows) {
     const BoundFunction bound = bind_listed(row);
     if (bound.subject == nullptr) continue;
-    ClaimFound found = hold_to_claim(row, bound, o);
+    ClaimFound found = held_or_ended(row, bound, o);
     write_program(row, bound, o, found);
     const std::string group =
         fmt::format("{} {} {} {}", row.spec.library, row.function, row.type, *row.spec.claimed_ulp);

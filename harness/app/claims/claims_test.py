@@ -33,6 +33,10 @@ double rough_tanh(double x) {
   const double y = tanh(x);
   return x > 20 ? y + 0x1p-52 : x > 3 && x < 3.5 && fmod(x * 0x1p51, 2) == 1 ? y - 0x1p-40 : y;
 }
+double endless(double x) {
+  for (volatile int spin = 1; spin;) continue;
+  return x;
+}
 double rough_cos(double x) { return x == 0 ? 1 - 0x1p-53 : cos(x); }
 """
 
@@ -143,6 +147,15 @@ def test_vectors_and_variants(tmp_path, library):
         found[1]["largest_ulp"] == found[0]["largest_ulp"] and found[1]["variant"] == ""
     )
     assert shown(found[1]["program"])[0] == 1
+
+
+def test_a_function_without_an_end_leaves_the_others_measured(tmp_path, library):
+    rows = row("endless", 1) + row("off_sin", 5, NEAR)
+    code, text, err, found = claims(
+        tmp_path, library, rows, "--call-timeout", "0.01", "--threads", "1"
+    )
+    assert code == 1 and "hangs at more than" in text
+    assert [f["holds"] for f in found] == [False, True]
 
 
 def test_properties_that_need_no_reference(tmp_path, library):

@@ -5,7 +5,9 @@
 
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/machine/threads.hpp"
+#include "harness/app/shell/failure.hpp"
 #include "harness/core/watch/heartbeat.hpp"
+#include "harness/foreign/foreign_failure.hpp"
 #include "reference/types/mpfr_value.hpp"
 
 namespace ulpgate::app {
@@ -21,9 +23,15 @@ bool run_round(FunctionSearch& search, std::uint64_t most, unsigned threads, con
       check_environment();
     }
   };
-  Threads pool(1, threads, work);
-  work(0);
-  pool.join();
+  try {
+    Threads pool(1, threads, work);
+    work(0);
+    pool.join();
+  } catch (const ForeignHangs& e) {
+    throw Failure(Standing::regression, e.what());
+  } catch (const ForeignFailure& e) {
+    throw Failure(Standing::environment, e.what());
+  }
   const WorkPlace place(subject.name(), subject.type().token, "search");
   search.end_round();
   check_environment();
