@@ -126,3 +126,27 @@ def test_functions_over_strata():
 def test_numpys_functions(name, as_, dtype, limit):
     found = ulpgate.test(getattr(np, name), as_=as_, dtype=dtype, samples=1000)
     assert found.worst["max_ulp"] < limit, str(found)
+
+
+def test_the_example_of_the_documentation_runs():
+    lines = [
+        line[4:] for line in ulpgate.__doc__.splitlines() if line.startswith("    ")
+    ]
+    names = {}
+    exec("\n".join(lines), names)  # noqa: S102  (our own words)
+    assert names["found"].max_ulp < 4
+
+
+def test_the_readme_s_lines_run():
+    """Every line of Python in the room's README."""
+    text = (pathlib.Path(__file__).parent / "README.md").read_text()
+    lines = [
+        line.split("#")[0].strip()
+        for line in text.splitlines()
+        if line.startswith("    ulpgate.")
+    ]
+    assert len(lines) >= 3
+    for line in lines:
+        eval(
+            line, {"np": np, "ulpgate": ulpgate, "x": np.linspace(-3, 3, 101)}
+        )  # noqa: S307
