@@ -281,6 +281,21 @@ def test_a_list_of_implementations(tmp_path, library):
         assert code == 2 and said in err and "list.toml:" in err
 
 
+def test_the_gate_holds_records_of_a_library_and_names_it(tmp_path, library):
+    code, err, _ = measured(tmp_path / "good", library, "good_sin")
+    assert code == 0, err
+    budgets = ["--budgets", tmp_path / "budgets"]
+    assert run("gate", tmp_path / "good", *budgets, "--update")[0] == 0
+    assert run("gate", tmp_path / "good", *budgets)[0] == 0
+    measured(tmp_path / "bad", library, "crash_at_one")
+    code, out, err = run("gate", tmp_path / "bad", *budgets, "--other-plan")
+    assert code == 1 and "crash" in out + err
+    assert (
+        f"ulpgate at sin double {ONE} --library {library} --symbol crash_at_one"
+        in out + err
+    )
+
+
 def test_another_build_is_another_plan(tmp_path, library):
     plans = set()
     for symbol in ("good_sin", "arrays_sin"):

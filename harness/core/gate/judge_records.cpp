@@ -41,8 +41,6 @@ std::pair<std::string, std::string> words_of(Outcome outcome) {
       return {"zero", "a number more than 1 ULP from it"};
     case Outcome::nonzero_for_zero:
       return {"a number", "zero"};
-    case Outcome::exception:
-      return {"an exception", "a value"};
     default:
       break;
   }
@@ -102,8 +100,9 @@ class Judge {
     f.stratum = r.stratum;
     f.budget_file = r.type;
     f.budget_key = row_;
-    f.reproduce = row_reproducer(f.of, r.subject, r.type, r.stratum, samples_, r.seed);
-    if (!f.at.empty()) f.again = std::exchange(f.reproduce, point_reproducer(r.subject, r.type, f.at));
+    f.reproduce = row_reproducer(f.of, r.subject, r.type, r.stratum, samples_, r.seed) + r.selection;
+    if (!f.at.empty())
+      f.again = std::exchange(f.reproduce, point_reproducer(r.subject, r.type, f.at) + r.selection);
     // The record keeps the results of one point, that of the largest error.
     if (!f.at.empty() && f.at == r.points.argmax) {
       f.got = r.points.got;
