@@ -14,7 +14,7 @@ using ulpgate::Subject;
 void bare(benchmark::State& state, const Subject* subject) {
   constexpr std::size_t batch = 256;
   const auto timed = subject->timed_batch(batch);
-  for (auto _ : state) timed(batch);
+  for (auto _ : state) timed(batch, 1);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch));
 }
 

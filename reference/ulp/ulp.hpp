@@ -24,12 +24,28 @@ enum class Outcome {
   underflow_spurious,  // zero although the exact value is more than 1 ULP from it
   nonzero_for_zero,    // not zero where the exact value is zero
   exception,           // the function threw
+  // Of foreign functions, which run in a process of their own:
+  crash,           // it ended the process
+  hang,            // it did not return
+  not_a_function,  // it gave another value for the same argument
+  lane_dependent,  // ... beside other lanes of a vector
+  environment,     // it left another rounding, precision or treatment of subnormals behind
 };
-inline constexpr std::array<std::string_view, 10> outcome_names = {"finite",           "nan",
-                                                                   "not_nan",          "inf",
-                                                                   "zero_sign",        "overflow_spurious",
-                                                                   "overflow_missed",  "underflow_spurious",
-                                                                   "nonzero_for_zero", "exception"};
+inline constexpr std::array<std::string_view, 15> outcome_names = {"finite",
+                                                                   "nan",
+                                                                   "not_nan",
+                                                                   "inf",
+                                                                   "zero_sign",
+                                                                   "overflow_spurious",
+                                                                   "overflow_missed",
+                                                                   "underflow_spurious",
+                                                                   "nonzero_for_zero",
+                                                                   "exception",
+                                                                   "crash",
+                                                                   "hang",
+                                                                   "not_a_function",
+                                                                   "lane_dependent",
+                                                                   "environment"};
 inline constexpr std::size_t outcome_count = outcome_names.size();
 [[nodiscard]] inline std::string_view name_of(Outcome o) {
   return outcome_names[static_cast<std::size_t>(o)];

@@ -1,4 +1,5 @@
 // All verbs of ulpgate, added to the command line in the order of its help.
+#include "harness/app/claims/claims_command.hpp"
 #include "harness/app/commands/commands.hpp"
 #include "harness/app/history_commands/history_commands.hpp"
 #include "harness/app/machine/watchdog.hpp"
@@ -19,6 +20,7 @@ void add_all_commands(CLI::App& app, Action& action, double& timeout_s) {
   add_advise_command(app, action);
   add_at_command(app, action);
   add_search_command(app, action);
+  add_claims_command(app, action);
   add_merge_command(app, action);
   add_gate_command(app, action);
   add_report_command(app, action);

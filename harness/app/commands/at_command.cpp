@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/foreign/foreign_options.hpp"
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/records.hpp"
@@ -119,7 +120,8 @@ std::string shown_inputs(const SubjectInfo& info) {
   return " (" + text.substr(1) + ")";
 }
 
-Verdict run_at(const std::vector<std::string>& words) {
+Verdict run_at(std::vector<std::string> words) {
+  const ForeignOptions foreign = take_foreign_options(words);
   std::vector<std::string> plain;
   bool json = false;
   for (const auto& word : words) {
@@ -132,6 +134,7 @@ Verdict run_at(const std::vector<std::string>& words) {
     }
   }
   if (plain.size() < 2) throw Failure(Standing::bad_input, "usage: ulpgate at FUNCTION TYPE X... [--json]");
+  bind_foreign(foreign, plain[0], plain[1]);
   const Subject& subject = subject_or_fail(plain[0], plain[1]);
   const SubjectInfo& info = subject.info();
   const std::size_t wanted = info.input_components();
@@ -155,7 +158,7 @@ Verdict run_at(const std::vector<std::string>& words) {
   } else {
     print_text(subject, point);
   }
-  return Standing::pass;
+  return foreign_verdict();
 }
 
 }  // namespace
@@ -164,9 +167,12 @@ void add_at_command(CLI::App& app, Action& action) {
   auto* at =
       app.add_subcommand("at", "Everything known about one point: value, exact value, ULP error, condition");
   at->footer(
-      "ulpgate at FUNCTION|KERNEL TYPE X... [--json]\n"
+      "ulpgate at FUNCTION|KERNEL TYPE X... [--json] [--library L --symbol S]\n"
       "X is decimal, hexfloat (-0x1.5p+2), inf or nan, rounded once to TYPE; a complex argument is two "
       "numbers.\n"
+      "--library and --symbol [--signature --worker --worker-environment --call-timeout] call the function "
+      "of a "
+      "shared library instead (`ulpgate math --help`).\n"
       "`ulpgate --timeout S at ...` waits longer than 60 s, or not as long.\n"
       "--json prints the keys function type args value reference ulp_error float_distance condition "
       "outcome.");

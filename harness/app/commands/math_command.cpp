@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/foreign/foreign_options.hpp"
 #include "harness/app/run/plan_run.hpp"
 #include "harness/app/run/record_verdicts.hpp"
 #include "harness/app/store/worst_cases.hpp"
@@ -15,7 +16,25 @@ namespace {
 
 struct MathOptions : PlanOptions {
   std::string worst_cases;
+  ForeignOptions foreign;
 };
+
+// Puts the functions of libraries in place of this program's.
+void bind(MathOptions& o) {
+  if (!o.foreign.any()) return;
+  if (o.foreign.one() && !o.foreign.list.empty())
+    throw Failure(Standing::bad_input, "--implementations names libraries and symbols itself");
+  bind_list(o.foreign, o.subjects, o.types);
+  if (!o.foreign.one()) return;
+  const auto functions = select_subjects(SubjectKind::function, o.subjects);
+  const auto types = select_types(o.types);
+  if (functions.size() != 1 || types.size() != 1) {
+    throw Failure(Standing::bad_input,
+                  "--symbol is one function of one type: name them (--functions sin --types double), or give "
+                  "a list (--implementations)");
+  }
+  bind_foreign(o.foreign, functions.front(), types.front());
+}
 
 Plan make_plan(const MathOptions& o) {
   PlanRequest request = request_of(o);
@@ -57,12 +76,14 @@ void report_stages(const RunResult& result) {
   fmt::print(stderr, "ulpgate: decided by the stages of the reference: {} of {} samples\n", text, all);
 }
 
-Verdict run_math(const MathOptions& o, Ranks* ranks) {
+Verdict run_math(MathOptions o, Ranks* ranks) {
+  bind(o);
   return run_and_write(make_plan(o), o, ranks, [](const RunResult& result) {
     report_stages(result);
     report_proofs(result.records);
     Verdict verdict = oracle_verdict(result.records);
     verdict |= claim_verdict(result.records);
+    verdict |= foreign_verdict(result.records);
     return verdict;
   });
 }
@@ -88,6 +109,7 @@ void add_math_command(CLI::App& app, Action& action, const RanksOfJob& ranks) {
       ->check(CLI::IsMember({"screened", "full"}));
   math->add_option("--worst-cases", o->worst_cases,
                    "directory of worst cases (default ci/worst_cases, if it exists)");
+  add_foreign_options(*math, o->foreign, true);
   math->callback([=, &action] { action = [=] { return run_math(*o, ranks ? ranks() : nullptr); }; });
 }
 

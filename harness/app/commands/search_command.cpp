@@ -8,8 +8,10 @@
 #include <thread>
 
 #include "harness/app/commands/commands.hpp"
+#include "harness/app/foreign/foreign_options.hpp"
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/machine/threads.hpp"
+#include "harness/app/search/search_round.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
@@ -37,27 +39,12 @@ struct SearchOptions {
   std::string known;
   double limit_ulp = 0;  // 0: none
   bool json = false;
+  ForeignOptions foreign;
 };
 
 std::string reproducer(const Subject& subject, const Point& point) {
-  return fmt::format("ulpgate at {} {} {}", subject.name(), subject.type().token,
-                     fmt::join(point.args_hex, " "));
-}
-
-// The batches of a round on several threads.
-void run_round(FunctionSearch& search, std::size_t batches, unsigned threads, const Subject& subject) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&](unsigned) {
-    const MpfrThread mpfr;
-    const WorkPlace place(subject.name(), subject.type().token, "search");
-    for (std::size_t i = next++; i < batches; i = next++) {
-      search.run_batch(i);
-      check_environment();
-    }
-  };
-  Threads pool(1, threads, work);
-  work(0);
-  pool.join();
+  return fmt::format("ulpgate at {} {} {}{}", subject.name(), subject.type().token,
+                     fmt::join(point.args_hex, " "), subject.info().selection);
 }
 
 // One hunt over the whole domain, hard arguments first, and one that passes over the neighbourhoods of those
@@ -111,10 +98,7 @@ bool hunt(const SearchOptions& o, const Hunts& hunts, unsigned threads, const Su
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
     if (hunts.evaluations() >= limit || (o.evaluations == 0 && elapsed_s >= o.seconds)) return true;
     FunctionSearch& search = hunts.next();
-    run_round(search, search.begin_round(limit - hunts.evaluations()), threads, subject);
-    const WorkPlace place(subject.name(), subject.type().token, "search");
-    search.end_round();
-    check_environment();
+    run_round(search, limit - hunts.evaluations(), threads, subject);
     const std::string now = fmt::format("{:.4g}", hunts.best_error_ulp());
     if (hunts.best_error_ulp() >= 0 && now != shown) {
       const Point point = subject.point(hunts.best().args);
@@ -227,6 +211,7 @@ Verdict judge(const SearchOptions& o, const Subject& subject, const Hunts& hunts
 
 Verdict run_search(const SearchOptions& o) {
   const FunctionInfo& f = function_or_fail(o.function);
+  bind_foreign(o.foreign, o.function, o.type);
   const Subject& subject = subject_or_fail(o.function, o.type);
   if (!can_search(subject)) {
     throw Failure(Standing::bad_input,
@@ -257,7 +242,9 @@ Verdict run_search(const SearchOptions& o) {
     }
   }
   if (!complete) throw Failure(Standing::incomplete, "interrupted; what was found so far stands above");
-  return judge(o, subject, hunts, found);
+  Verdict verdict = judge(o, subject, hunts, found);
+  verdict |= foreign_verdict();
+  return verdict;
 }
 
 }  // namespace
@@ -295,6 +282,7 @@ void add_search_command(CLI::App& app, Action& action) {
       ->add_option("--limit", o->limit_ulp,
                    "exit 1 where the error in ULP, away from hard arguments and known worst cases, is larger")
       ->check(CLI::Range(0.0, 1e300));
+  add_foreign_options(*search, o->foreign, false);
   search->add_flag("--json", o->json, "print JSON");
   search->callback([=, &action] { action = [=] { return run_search(*o); }; });
 }

@@ -57,7 +57,8 @@ std::string to_json_line(const RowRecord& r) {
   Json first_index = Json::object();
   for (std::size_t o = 1; o < outcome_count; ++o) {
     const std::string name(outcome_names[o]);
-    mismatch[name] = s.outcomes[o];
+    // Of foreign functions alone, where there are any.
+    if (s.outcomes[o] > 0 || o <= static_cast<std::size_t>(Outcome::exception)) mismatch[name] = s.outcomes[o];
     if (s.outcomes[o] > 0) {
       first[name] = r.points.first_mismatch.at(static_cast<Outcome>(o));
       first_index[name] = s.first_index[o];
@@ -161,6 +162,7 @@ RowRecord from_json_line(const std::string& line, const std::string& place) {
     }
     for (std::size_t o = 1; o < outcome_count; ++o) {
       const std::string name(outcome_names[o]);
+      if (o > static_cast<std::size_t>(Outcome::exception) && !j.at("mismatch").contains(name)) continue;
       s.outcomes[o] = count_from(j.at("mismatch").at(name));
       if (s.outcomes[o] > 0) {
         s.first_index[o] = count_from(j.at("mismatch_index").at(name));

@@ -8,7 +8,7 @@ namespace ulpgate::app {
 namespace {
 
 struct ReportOptions {
-  std::string directory;
+  std::vector<std::string> directories;
   std::string out;
   bool print = false;
   std::vector<std::string> axes;  // "X,Y" each; the report program knows the names and refuses others
@@ -16,8 +16,9 @@ struct ReportOptions {
 
 // The report program either writes or prints; both are two runs of it.
 Verdict run_report(const ReportOptions& o) {
-  const std::vector<std::string> words = {find_python({"matplotlib", "numpy", "jinja2", "jsonschema"}),
-                                          find_report_program("report.py").string(), o.directory};
+  std::vector<std::string> words = {find_python({"matplotlib", "numpy", "jinja2", "jsonschema"}),
+                                    find_report_program("report.py").string()};
+  words.insert(words.end(), o.directories.begin(), o.directories.end());
   std::vector<std::vector<std::string>> options;
   if (!o.out.empty()) {
     options.push_back({"--out", o.out});
@@ -38,7 +39,10 @@ Verdict run_report(const ReportOptions& o) {
 void add_report_command(CLI::App& app, Action& action) {
   auto* report = app.add_subcommand("report", "Make tables, figures and a page from records");
   auto o = std::make_shared<ReportOptions>();
-  report->add_option("DIR", o->directory, "directory of the records")->required();
+  report
+      ->add_option("DIR", o->directories,
+                   "directory of the records; several: functions of libraries side by side, LABEL=DIR names one")
+      ->required();
   auto* out = report->add_option("--out", o->out, "directory of the report");
   report->add_flag("--print", o->print, "print the ULP table");
   report

@@ -36,7 +36,9 @@ std::filesystem::path find_report_program(std::string_view name) {
   std::error_code code;
   for (auto d = std::filesystem::read_symlink("/proc/self/exe", code); d.has_relative_path();
        d = d.parent_path()) {
-    if (auto program = d.parent_path() / "reports" / name; std::filesystem::exists(program)) return program;
+    // Of the source tree, or where they are installed.
+    for (const char* folder : {"reports", "share/ulpgate/reports"})
+      if (auto program = d.parent_path() / folder / name; std::filesystem::exists(program)) return program;
   }
   throw Failure(
       Standing::environment,

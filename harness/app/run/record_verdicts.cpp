@@ -49,9 +49,9 @@ Verdict claim_verdict(const std::vector<RowRecord>& records) {
     fmt::print(
         stderr,
         "ulpgate: {} {} of {} is claimed to be off by at most {} ULP and is off by {}: ulpgate at {} {} "
-        "{}\n",
+        "{}{}\n",
         r.subject, r.type, r.implementation, *claim, r.summary.max_error.value, r.subject, r.type,
-        fmt::join(r.points.argmax, " "));
+        fmt::join(r.points.argmax, " "), subject->info().selection);
   }
   return verdict;
 }

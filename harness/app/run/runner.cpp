@@ -16,6 +16,7 @@
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
+#include "harness/foreign/foreign_failure.hpp"
 #include "harness/core/judging/reference_disagreement.hpp"
 #include "harness/core/watch/heartbeat.hpp"
 
@@ -90,6 +91,10 @@ class Collector {
         std::rethrow_exception(failure_);
       } catch (const ReferenceDisagreement& e) {
         throw Failure(Standing::regression, e.what());
+      } catch (const ForeignHangs& e) {
+        throw Failure(Standing::regression, e.what());
+      } catch (const ForeignFailure& e) {
+        throw Failure(Standing::environment, e.what());
       }
     }
     UnitSummaries result;

@@ -69,6 +69,20 @@ Json make_context(const Plan& plan, const std::vector<std::string>& shards, unsi
   }
   c[functions ? "functions" : "kernels"] = subjects;
   c["planned"] = planned_rows(plan);
+  Json codes = Json::array();
+  for (const auto& token : request.types) {
+    for (const auto& name : request.subjects) {
+      const SubjectInfo& info = find_subject(name, token)->info();
+      if (info.selection.empty()) continue;
+      Json code = {{"function", name},
+                   {"type", token},
+                   {"implementation", info.implementation},
+                   {"selection", info.selection.substr(1)}};
+      for (const auto& [what, value] : info.code_facts) code[what] = value;
+      codes.push_back(code);
+    }
+  }
+  if (!codes.empty()) c["foreign"] = codes;
   return c;
 }
 

@@ -11,6 +11,23 @@
 
 namespace ulpgate::app {
 
+namespace {
+
+// Of functions of libraries, so that whoever is told of a row can see it again.
+void give_selections(RecordSet& set) {
+  const auto foreign = set.context.find("foreign");
+  if (foreign == set.context.end() || !foreign->is_array()) return;
+  for (const auto& code : *foreign) {
+    if (!code.is_object() || !code.contains("selection") || !code["selection"].is_string()) continue;
+    for (auto& r : set.records) {
+      if (code.value("function", Json()) == r.subject && code.value("type", Json()) == r.type)
+        r.selection = " " + code["selection"].get<std::string>();
+    }
+  }
+}
+
+}  // namespace
+
 RecordSet read_records(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) {
     throw Failure(Standing::bad_input, fmt::format("{}: no such directory", directory.string()));
@@ -46,6 +63,7 @@ RecordSet read_records(const std::filesystem::path& directory) {
     }
     places.push_back(std::move(line.place));
   }
+  give_selections(set);
   set.absent = absent_rows(set.context, context, set.records, places);
   if (!set.absent.empty() && set.context.at("finished").get<bool>()) {
     throw Failure(Standing::incomplete,

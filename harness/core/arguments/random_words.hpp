@@ -19,6 +19,25 @@ namespace ulpgate {
   return hash;
 }
 
+// A stream of words from a seed, for samples that nobody records by their index (Steele, Lea, Flood: "Fast
+// splittable pseudorandom number generators", 2014).
+class SplitMix64 {
+ public:
+  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t word() {
+    state_ += 0x9e3779b97f4a7c15U;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31U);
+  }
+  // Of [0, 1), with all 64 bits.
+  long double share() { return static_cast<long double>(word()) * 0x1p-64L; }
+
+ private:
+  std::uint64_t state_;
+};
+
 // One stream per (seed, function, stratum).  Philox4x64-10: Salmon et al., "Parallel random numbers: as easy
 // as 1, 2, 3", SC'11.
 class RandomStream {

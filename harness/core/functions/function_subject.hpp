@@ -39,7 +39,26 @@ class FunctionSubject final : public Subject {
                   BatchFunction<Reference> family)
       : Subject(subject_info(f, family_of<Real>()), type), function_(f), call_(evaluate), family_(family) {}
 
+  // `code` is under test, and `info` says whose it is.
+  FunctionSubject(const RealDescriptor& type, const FunctionInfo& f, SubjectInfo info, const BatchCode& code,
+                  BatchFunction<Reference> family)
+      : Subject(std::move(info), type), function_(f), call_(code), family_(family) {}
+
   [[nodiscard]] BatchFunction<Real> call() const { return call_; }
+
+  [[nodiscard]] std::unique_ptr<Subject> with_code(const BatchCode& code, CodeNames names) const override {
+    // Of other types the bytes are no value that another process could know.
+    if constexpr (NativeReal<Real> || Float128Backed<Real>) {
+      SubjectInfo info = this->info();
+      info.implementation = std::move(names.implementation);
+      info.claimed_ulp = names.claimed_ulp;
+      info.selection = std::move(names.selection);
+      info.code_facts = std::move(names.facts);
+      return std::make_unique<FunctionSubject>(type(), function_, std::move(info), code, family_);
+    } else {
+      return nullptr;
+    }
+  }
 
   [[nodiscard]] ArgumentList listed(Stratum s) const override {
     if (s == Stratum::edges) return edge_arguments(function_, type().format);
@@ -87,8 +106,13 @@ class FunctionSubject final : public Subject {
     std::vector<Real> args(count * static_cast<std::size_t>(function_.arity));
     std::vector<Real> results(count * static_cast<std::size_t>(function_.parts));
     Arguments<Real>(function_, {Stratum::uniform, 1, count, nullptr}).make_all(0, count, args.data());
-    return [call = call_, args, results, threw = std::vector<std::uint8_t>(count)](std::size_t n) mutable {
-      call(args.data(), results.data(), threw.data(), n);
+    return [call = call_, args, results, threw = std::vector<std::uint8_t>(count)](std::size_t n,
+                                                                                          int rounds) mutable {
+      if (call.code() != nullptr) return call.code()->call(args.data(), results.data(), n, rounds);
+      for (int i = 0; i < rounds; ++i) {
+        Heartbeat::mine().beat(WorkPhase::none);
+        call(args.data(), results.data(), threw.data(), n);
+      }
     };
   }
 
@@ -121,9 +145,11 @@ class FunctionSubject final : public Subject {
     const auto arity = static_cast<std::size_t>(f.arity);
     const auto parts = static_cast<std::size_t>(f.parts);
     ScannedArguments<Real> arguments(f, source, call_);
-    std::vector<Real> args(batch_size * arity);
-    std::vector<Real> results(batch_size * parts);
-    std::vector<std::uint8_t> threw(batch_size);
+    // Other code is asked for as many points as suit it, whatever is known: its results may depend on that.
+    const std::size_t block = call_.code() != nullptr ? call_.code()->batch() : batch_size;
+    std::vector<Real> args(block * arity);
+    std::vector<Real> results(block * parts);
+    std::vector<std::uint8_t> threw(block);
     const CallsInHand<Real> calls(f, call_, args);
     const HandScope hand(calls);
     Heartbeat& heart = Heartbeat::mine();
@@ -131,19 +157,28 @@ class FunctionSubject final : public Subject {
     // Nothing is known yet of a row's maxima: small batches find them before many samples climb for being
     // one.
     std::size_t most = tally.knows_maxima() ? batch_size : 4;
+    const auto judge = [&](std::uint64_t k, std::size_t from, std::size_t n) {
+      heart.beat(WorkPhase::references, n);
+      judging.judge(
+          Batch<Real>{
+              f, {&args[from * arity], n * arity}, {&results[from * parts], n * parts}, {&threw[from], n}, k},
+          tally);
+      for (std::size_t i = (stride - k % stride) % stride; i < n; i += stride) {
+        heart.beat(WorkPhase::reference, from + i);
+        compare_oracles(&args[(from + i) * arity], k + i, tally);
+      }
+    };
     std::size_t n = 0;
-    for (std::uint64_t k = first; k < last; k += n, most = std::min(2 * most, batch_size)) {
-      n = std::min<std::uint64_t>(most, last - k);
+    for (std::uint64_t k = first; k < last; k += n) {
+      n = std::min<std::uint64_t>(call_.code() != nullptr ? block : most, last - k);
       arguments.make_all(k, n, args.data());
       std::fill(threw.begin(), threw.end(), std::uint8_t{0});
       heart.beat(WorkPhase::calls, n);
       call_(args.data(), results.data(), threw.data(), n);
-      heart.beat(WorkPhase::references, n);
-      judging.judge(
-          Batch<Real>{f, {args.data(), n * arity}, {results.data(), n * parts}, {threw.data(), n}, k}, tally);
-      for (std::size_t i = (stride - k % stride) % stride; i < n; i += stride) {
-        heart.beat(WorkPhase::reference, i);
-        compare_oracles(&args[i * arity], k + i, tally);
+      for (std::size_t from = 0; from < n; most = std::min(2 * most, batch_size)) {
+        const std::size_t some = std::min(most, n - from);
+        judge(k + from, from, some);
+        from += some;
       }
     }
   }
@@ -212,8 +247,9 @@ class FunctionSubject final : public Subject {
     const int digits = std::max(30, type().decimal_places + 5);
     for (std::size_t j = 0; j < parts; ++j) {
       const bool none = threw != 0;
-      p.parts.push_back({{none ? "exception" : to_hexfloat(results[j])},
-                         {none ? "exception" : to_decimal(results[j])},
+      const std::string why(none ? name_of(outcome_without_value(threw)) : "");
+      p.parts.push_back({{none ? why : to_hexfloat(results[j])},
+                         {none ? why : to_decimal(results[j])},
                          {to_decimal(exact[j].get(), digits)},
                          judging.judgement(batch, 0, j),
                          {},

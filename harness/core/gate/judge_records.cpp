@@ -25,8 +25,6 @@ RowKind kind_of(const RowRecord& r) {
 // What came out and what should have, of a result that no error in ULP describes.
 std::pair<std::string, std::string> words_of(Outcome outcome) {
   switch (outcome) {
-    case Outcome::finite:
-      return {"a value", "a value"};
     case Outcome::nan:
       return {"NaN", "a value"};
     case Outcome::not_nan:
@@ -43,10 +41,10 @@ std::pair<std::string, std::string> words_of(Outcome outcome) {
       return {"zero", "a number more than 1 ULP from it"};
     case Outcome::nonzero_for_zero:
       return {"a number", "zero"};
-    case Outcome::exception:
-      return {"an exception", "a value"};
+    default:
+      break;
   }
-  return {};
+  return {std::string(name_of(outcome)), "a value"};
 }
 
 class Judge {
@@ -102,8 +100,9 @@ class Judge {
     f.stratum = r.stratum;
     f.budget_file = r.type;
     f.budget_key = row_;
-    f.reproduce = row_reproducer(f.of, r.subject, r.type, r.stratum, samples_, r.seed);
-    if (!f.at.empty()) f.again = std::exchange(f.reproduce, point_reproducer(r.subject, r.type, f.at));
+    f.reproduce = row_reproducer(f.of, r.subject, r.type, r.stratum, samples_, r.seed) + r.selection;
+    if (!f.at.empty())
+      f.again = std::exchange(f.reproduce, point_reproducer(r.subject, r.type, f.at) + r.selection);
     // The record keeps the results of one point, that of the largest error.
     if (!f.at.empty() && f.at == r.points.argmax) {
       f.got = r.points.got;

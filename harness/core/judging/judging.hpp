@@ -96,7 +96,14 @@ class PointJudge {
   MpfrValue got_;
 };
 
-inline constexpr Judgement exception_judgement{Outcome::exception, {}, 0, false};
+// Of a point that gave no value: which of the outcomes from `exception` on, counted from 1, stands in
+// `threw`.
+[[nodiscard]] constexpr Outcome outcome_without_value(std::uint8_t threw) {
+  return static_cast<Outcome>(static_cast<int>(Outcome::exception) + threw - 1);
+}
+[[nodiscard]] constexpr std::uint8_t no_value(Outcome o) {
+  return static_cast<std::uint8_t>(static_cast<int>(o) - static_cast<int>(Outcome::exception) + 1);
+}
 
 // Every sample against MPFR at the precision of RealHP<4>.  One object per unit of work.
 template <RealType Real>
@@ -109,11 +116,11 @@ class FullJudging {
 
   // Evaluates point i; judgement(part) then judges its parts.
   void load(const Batch<Real>& batch, std::size_t i) {
-    threw_ = batch.threw[i] != 0;
-    if (!threw_) point_.load(batch, i);
+    threw_ = batch.threw[i];
+    if (threw_ == 0) point_.load(batch, i);
   }
   [[nodiscard]] Judgement judgement(const Batch<Real>& batch, std::size_t i, std::size_t part) {
-    if (threw_) return exception_judgement;
+    if (threw_ != 0) return {outcome_without_value(threw_), {}, 0, false};
     mpfr_srcptr got = point_.got(batch, i, part);
     mpfr_srcptr exact = point_.exact(part);
     const Exactness exactness = point_.exactness(part);
@@ -125,7 +132,7 @@ class FullJudging {
       j.error.value = smallest_error;
     return j;
   }
-  [[nodiscard]] long double value(std::size_t part) const { return threw_ ? 0 : point_.value(part); }
+  [[nodiscard]] long double value(std::size_t part) const { return threw_ != 0 ? 0 : point_.value(part); }
 
   void judge(const Batch<Real>& batch, RowTally<Real>& tally) {
     for (std::size_t i = 0; i < batch.count(); ++i) judge(batch, i, tally);
@@ -150,7 +157,7 @@ class FullJudging {
  private:
   PointJudge<Real> point_;
   MpfrValue beside_;
-  bool threw_ = false;
+  std::uint8_t threw_ = 0;
 };
 
 }  // namespace ulpgate

@@ -173,6 +173,11 @@ class ScreenedJudging {
     for (std::size_t i = past_check == 0 ? 0 : check_stride - past_check; i < batch.count();
          i += check_stride)
       verdicts_[i] = verdict::unsettled;
+    // What is no value was scanned like one.
+    std::uint8_t threw = 0;
+    for (const auto t : batch.threw) threw = static_cast<std::uint8_t>(threw | t);
+    for (std::size_t i = 0; threw != 0 && i < batch.count(); ++i)
+      if (batch.threw[i] != 0) verdicts_[i] = verdict::unsettled;
     tally.count_scanned(verdicts_, batch.first_index);
     std::size_t left = 0;
     std::size_t i = 0;

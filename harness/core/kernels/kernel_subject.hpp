@@ -81,8 +81,12 @@ class KernelSubject final : public Subject {
     std::vector<Real> results(count * kernel_.output_components());
     const States<Real> states(kernel_, {Stratum::typical, 1, count, nullptr});
     for (std::size_t i = 0; i < count; ++i) states.make(i, &inputs[i * kernel_.input_components()]);
-    return [call = call_, inputs, results, threw = std::vector<std::uint8_t>(count)](std::size_t n) mutable {
-      call(inputs.data(), results.data(), threw.data(), n);
+    return [call = call_, inputs, results, threw = std::vector<std::uint8_t>(count)](std::size_t n,
+                                                                                            int rounds) mutable {
+      for (int i = 0; i < rounds; ++i) {
+        Heartbeat::mine().beat(WorkPhase::none);
+        call(inputs.data(), results.data(), threw.data(), n);
+      }
     };
   }
 

@@ -50,6 +50,16 @@ std::string plan_text(const PlanRequest& r) {
       undivided ? " undivided" : "", fmt::join(r.types, ","), fmt::join(strata, ","),
       functions ? "functions" : "kernels", fmt::join(r.subjects, ","));
   if (functions) text += fmt::format("worst_cases {:016x}\n", fnv1a(r.worst_cases_text));
+  // Other code is another plan: whichever it is, and whichever build.
+  for (const auto& token : r.types) {
+    for (const auto& name : r.subjects) {
+      const SubjectInfo& info = find_subject(name, token)->info();
+      if (info.selection.empty()) continue;
+      text += fmt::format("code {} {}{}", token, name, info.selection);
+      for (const auto& [what, value] : info.code_facts) text += fmt::format(" {}={}", what, value);
+      text += "\n";
+    }
+  }
   return text;
 }
 

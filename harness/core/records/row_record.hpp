@@ -48,6 +48,8 @@ struct RowRecord {
   std::string plan;
   Summary summary;
   RowPoints points;
+  // Words that select the code on a command line; empty where it is built in.
+  std::string selection = {};
 
   // Sort key of the records file.
   [[nodiscard]] auto key() const { return std::tie(subject, part, type, stratum, implementation); }

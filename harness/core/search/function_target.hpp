@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "harness/core/arguments/argument_lists.hpp"
 #include "harness/core/functions/calls_in_hand.hpp"
@@ -233,7 +234,7 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
       b.wide_results.resize(count * parts());
       b.wide_threw.assign(count, 0);
       for (std::size_t i = 0; i < b.wide_args.size(); ++i) b.wide_args[i] = widen<Wide>(b.args[i]);
-      wide_(b.wide_args.data(), b.wide_results.data(), b.wide_threw.data(), count);
+      (*wide_)(b.wide_args.data(), b.wide_results.data(), b.wide_threw.data(), count);
       for (std::size_t i = 0; i < count; ++i) {
         double error = b.threw[i] != 0 ? std::numeric_limits<double>::infinity() : 0;
         for (std::size_t j = i * parts(); j < (i + 1) * parts() && b.threw[i] == 0; ++j)
@@ -288,7 +289,7 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
       for (const Real& x : args) b.wide_args.push_back(widen<Wide>(x));
       b.wide_results.resize(args.size());
       b.wide_threw.assign(args.size(), 0);
-      wide_(b.wide_args.data(), b.wide_results.data(), b.wide_threw.data(), args.size());
+      (*wide_)(b.wide_args.data(), b.wide_results.data(), b.wide_threw.data(), args.size());
       for (std::size_t i = 0; i < args.size(); ++i) {
         const Wide& w = b.wide_results[i];
         values[i].high = static_cast<Real>(w);
@@ -316,7 +317,7 @@ class FunctionTarget final : public SearchTarget<PositionOf<Real>> {
   ExponentRange exponents_;
   Positions<Real> positions_;
   BatchFunction<Real> call_;
-  BatchFunction<WideReal> wide_ = nullptr;
+  std::optional<BatchFunction<WideReal>> wide_;
   bool distrusted_ = false;
   std::vector<Point> known_;  // sorted
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 
 namespace ulpgate {
 
@@ -17,12 +18,27 @@ std::size_t SubjectInfo::input_components() const {
   return sum;
 }
 
+namespace {
+
+SubjectList& replacements() {
+  static SubjectList list;
+  return list;
+}
+
+}  // namespace
+
+void replace_subject(std::unique_ptr<Subject> subject) {
+  replacements().push_back(std::move(subject));
+}
+
 const Subject* find_subject(std::string_view name, std::string_view type_token) {
   static const auto by_name = [] {
     std::map<std::pair<std::string_view, std::string_view>, const Subject*> map;
     for (const auto& s : all_subjects()) map[{s->name(), s->type().token}] = s.get();
     return map;
   }();
+  for (const auto& s : std::views::reverse(replacements()))
+    if (s->name() == name && s->type().token == type_token) return s.get();
   const auto it = by_name.find({name, type_token});
   return it == by_name.end() ? nullptr : it->second;
 }

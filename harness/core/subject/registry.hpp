@@ -15,6 +15,9 @@ using SubjectList = std::vector<std::unique_ptr<Subject>>;
 [[nodiscard]] const SubjectList& all_subjects();
 // nullptr where there is none.
 [[nodiscard]] const Subject* find_subject(std::string_view name, std::string_view type_token);
+// From now on find_subject() gives this one for its name and type; what it gave before stays alive.  Before
+// anything is measured, from one thread.
+void replace_subject(std::unique_ptr<Subject> subject);
 // What a kind holds, in the same order in every type: each name and what it is in the first of the types.
 [[nodiscard]] std::vector<const SubjectInfo*> subjects_of(SubjectKind kind);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "reference/types/descriptor.hpp"
 
 namespace ulpgate {
+
+class BatchCode;
 
 // Families of subjects: each has strata of its own and a file of records.
 enum class SubjectKind { function, kernel };
@@ -36,6 +39,11 @@ struct SubjectInfo {
   // The largest error in ULP that its authors promise over the whole domain, where they do: 0.5 for the
   // operations that IEEE 754 wants correctly rounded.
   std::optional<double> claimed_ulp;
+  // Words that select the code, behind those of any command that names the subject; empty where it is built
+  // in.
+  std::string selection = {};
+  // What is known of that code: path, SONAME, build-id, ...
+  std::vector<std::pair<std::string, std::string>> code_facts = {};
 
   [[nodiscard]] std::size_t input_components() const;
 };
@@ -56,8 +64,16 @@ struct Point {
   std::vector<PointPart> parts;
 };
 
-// A prepared batch of arguments: evaluates its first `count` points, again and again.
-using TimedBatch = std::function<void(std::size_t count)>;
+// What a subject with other code is said to be.
+struct CodeNames {
+  std::string implementation;
+  std::optional<double> claimed_ulp;
+  std::string selection;
+  std::vector<std::pair<std::string, std::string>> facts;
+};
+
+// A prepared batch of arguments: evaluates its first `count` points, so many times over.
+using TimedBatch = std::function<void(std::size_t count, int rounds)>;
 
 class Subject {
  public:
@@ -87,6 +103,12 @@ class Subject {
   // The point with index k of a row, and the point at arguments given as exact values of the type.
   [[nodiscard]] virtual Point point(const StratumSource& source, std::uint64_t k) const = 0;
   [[nodiscard]] virtual Point point(const std::vector<MpfrValue>& args) const = 0;
+
+  // The same subject with other code behind it, which is made for this type; null where it takes none.
+  [[nodiscard]] virtual std::unique_ptr<Subject> with_code(const BatchCode& /*code*/,
+                                                           CodeNames /*names*/) const {
+    return nullptr;
+  }
 
   // Uniform arguments of a function, typical states of a kernel.
   [[nodiscard]] virtual TimedBatch timed_batch(std::size_t count) const = 0;

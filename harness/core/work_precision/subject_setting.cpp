@@ -30,7 +30,7 @@ SubjectSetting::SubjectSetting(const Subject& subject, std::uint64_t samples)
 SettingMeasurement::Work SubjectSetting::prepare() const {
   return [batch = subject_.timed_batch(batch_size)](const ode::StopFlag& stop) {
     stop.check();
-    batch(batch_size);
+    batch(batch_size, 1);
   };
 }
 

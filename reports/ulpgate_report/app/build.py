@@ -4,6 +4,7 @@ from ulpgate_report.collisions import kind as kind_collisions
 from ulpgate_report.figures import figure_style
 from ulpgate_report.history import kind as kind_history
 from ulpgate_report.kernels import kind as kind_kernels
+from ulpgate_report.libraries import kind as kind_libraries
 from ulpgate_report.math import kind as kind_math
 from ulpgate_report.page import page, page_views
 from ulpgate_report.pendulum import kind as kind_pendulum
@@ -13,6 +14,7 @@ from ulpgate_report.tables import table_csv, table_latex, table_markdown
 from ulpgate_report.work_precision import kind as kind_work_precision
 
 KINDS = (
+    kind_libraries,
     kind_math,
     kind_kernels,
     kind_pendulum,

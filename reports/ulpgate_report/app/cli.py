@@ -7,8 +7,9 @@ from pathlib import Path
 
 from ulpgate_report.app import build
 from ulpgate_report.history import history_file
-from ulpgate_report.records import suite
-from ulpgate_report.records.errors import OutputFailure, ReportError
+from ulpgate_report.libraries import beside
+from ulpgate_report.records import records, suite
+from ulpgate_report.records.errors import InvalidInput, OutputFailure, ReportError
 from ulpgate_report.tables import table_text
 from ulpgate_report.work_precision import axes
 
@@ -30,7 +31,12 @@ def _parser():
         "DIR may also be a directory of such directories.",
         epilog="exit codes: 0 ok, 2 bad usage or invalid input, 3 nothing measured, 4 I/O failure",
     )
-    parser.add_argument("directory", metavar="DIR", type=Path, help="the records")
+    parser.add_argument(
+        "directories",
+        metavar="DIR",
+        nargs="+",
+        help="the records; several: functions of libraries side by side, LABEL=DIR names one",
+    )
     parser.add_argument(
         "--axes",
         metavar="X,Y",
@@ -57,6 +63,29 @@ def _parser():
     return parser
 
 
+def _named(text):
+    """("LABEL", DIR) of LABEL=DIR, (None, DIR) of a directory."""
+    label, equals, path = text.partition("=")
+    if equals and label and not Path(text).is_dir():
+        return label, Path(path)
+    return None, Path(text)
+
+
+def _load(words):
+    """The run of one directory, or the functions of several side by side."""
+    named = [_named(word) for word in words]
+    if len(named) == 1 and named[0][0] is None:
+        return suite.load(named[0][1])
+    runs = [records.load(path) for _, path in named]
+    for (_, path), run in zip(named, runs):
+        if not run.math:
+            raise InvalidInput(f"{path}: no functions, which alone stand side by side")
+    found = beside.of(runs, [label for label, _ in named])
+    complete = all(run.context.get("complete", True) for run in runs)
+    context = {**runs[0].context, "complete": complete}
+    return records.Run(context, [], {}, libraries=found)
+
+
 def _print_tables(parts):
     shown = [table for kind, data in parts for table in kind.printed(data)]
     try:
@@ -75,7 +104,7 @@ def main(argv):
     """Run one report; returns the exit code."""
     arguments = _parser().parse_args(argv)
     try:
-        run = suite.load(arguments.directory)
+        run = _load(arguments.directories)
         # Each pair once, as it was given first.
         run = dataclasses.replace(run, axes=tuple(dict.fromkeys(arguments.axes)))
         if arguments.history is not None:

@@ -34,6 +34,7 @@ class Run:
     collisions: object = None
     axes: tuple = ()
     history: object = None
+    libraries: object = None
 
 
 def _require(context, name, file):

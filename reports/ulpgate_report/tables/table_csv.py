@@ -26,13 +26,17 @@ def _plain(value, kind):
     return str(value)
 
 
+def _names_the_row(index, column):
+    return index == 0 or column.kind in ("text", "code")
+
+
 def render(table):
     """The whole file."""
     split = _mark_name(table)
     header = []
     for index, column in enumerate(table.columns):
         header.append(column.name)
-        if split and index > 0:
+        if split and not _names_the_row(index, column):
             header.append(f"{column.name}_{split}")
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
@@ -40,7 +44,7 @@ def render(table):
     for row in table.rows:
         line = []
         for index, (value, column) in enumerate(zip(row, table.columns)):
-            if split and index > 0:
+            if split and not _names_the_row(index, column):
                 marked = value or Marked(None, "")
                 line += [_plain(marked.value, column.kind), marked.mark_value]
             else:

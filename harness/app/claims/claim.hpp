@@ -1,0 +1,72 @@
+// Claim: one function of a library, what is claimed of it, and what was found.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/app/foreign/implementations.hpp"
+#include "harness/app/reading/json_fields.hpp"
+#include "harness/foreign/properties.hpp"
+#include "harness/core/verdict/verdict.hpp"
+
+namespace ulpgate::app {
+
+struct ClaimOptions {
+  std::string out;
+  std::uint64_t samples = 20000;
+  std::uint64_t evaluations = 100000;  // of the search
+  std::uint64_t seed = 1;
+  unsigned threads = 0;
+  bool exhaustive = false;
+  bool overwrite = false;
+};
+
+struct ClaimFound {
+  std::string implementation;
+  std::uint64_t arguments = 0;
+  double largest_ulp = -1;
+  std::string where;              // "uniform", "search", "exhaustive"
+  std::vector<std::string> args;  // of the largest, hexadecimal
+  // Outcomes that are no number of ULP: name, how many, the arguments of the first.
+  struct Mismatch {
+    std::string outcome;
+    std::uint64_t count;
+    std::vector<std::string> args;
+  };
+  std::vector<Mismatch> mismatches;
+  std::vector<PropertyFinding> properties;
+  std::optional<SampledResults> sample;
+  double seconds = 0;
+  std::string program;  // file that shows the violation; empty: none
+
+  // Claims are stated in a few digits: what exceeds one by less than this share is no violation of it.
+  static constexpr double negligible = 0x1p-20;
+  [[nodiscard]] bool violates(double claimed_ulp) const {
+    return !mismatches.empty() || largest_ulp > claimed_ulp * (1 + negligible);
+  }
+};
+
+// Strata, search and, where asked for, all floats; what a directory of an earlier run holds is not done
+// again.
+[[nodiscard]] ClaimFound hold_to_claim(const ListedFunction& row, const BoundFunction& bound,
+                                       const ClaimOptions& o);
+
+// Where the records of a row lie, below the directory of all.
+[[nodiscard]] std::string directory_of(const ListedFunction& row);
+
+// A C program that calls the function at these arguments, prints what it gives beside the exact value, and
+// exits with 1 where the error is above the claim; empty where its signature is none that such a program can
+// call.
+[[nodiscard]] std::string program_text(const ListedFunction& row, const BoundFunction& bound,
+                                       const std::vector<std::string>& args);
+
+// The lists that are built in.
+struct BuiltinClaims {
+  std::string name;
+  std::string text;
+};
+[[nodiscard]] const std::vector<BuiltinClaims>& builtin_claims();
+
+}  // namespace ulpgate::app

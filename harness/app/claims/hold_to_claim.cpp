@@ -1,0 +1,153 @@
+// hold_to_claim(): one function against its claim.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "harness/app/claims/claim.hpp"
+#include "harness/app/run/plan_run.hpp"
+#include "harness/app/search/search_round.hpp"
+#include "harness/app/shell/files.hpp"
+#include "harness/app/shell/interrupt.hpp"
+#include "harness/app/shell/selection.hpp"
+#include "harness/core/search/function_search.hpp"
+#include "reference/functions/function_info.hpp"
+
+namespace ulpgate::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr const char* search_file = "search.json";
+
+std::filesystem::path path_of(const ListedFunction& row, const ClaimOptions& o) {
+  return std::filesystem::path(o.out) / directory_of(row);
+}
+
+unsigned threads_of(const ClaimOptions& o) {
+  return o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
+void add_records(const std::vector<RowRecord>& records, ClaimFound& found) {
+  for (const auto& r : records) {
+    found.arguments += r.summary.samples;
+    if (r.summary.judged() > 0 && r.summary.max_error.value > found.largest_ulp) {
+      found.largest_ulp = r.summary.max_error.value;
+      found.where = r.stratum;
+      found.args = r.points.argmax;
+    }
+    for (std::size_t i = 1; i < outcome_count; ++i) {
+      if (r.summary.outcomes[i] == 0) continue;
+      const auto& args = r.points.first_mismatch.at(static_cast<Outcome>(i));
+      const auto it = std::ranges::find(found.mismatches, outcome_names[i], &ClaimFound::Mismatch::outcome);
+      if (it != found.mismatches.end()) {
+        it->count += r.summary.outcomes[i];
+      } else {
+        found.mismatches.push_back({std::string(outcome_names[i]), r.summary.outcomes[i], args});
+      }
+    }
+  }
+}
+
+void measure_strata(const ListedFunction& row, const ClaimOptions& o, ClaimFound& found) {
+  PlanOptions p;
+  p.subjects = row.function;
+  p.types = row.type;
+  p.samples = o.samples;
+  p.seed = o.seed;
+  p.threads = o.threads;
+  p.out = path_of(row, o).string();
+  p.resume = !o.overwrite;
+  p.overwrite = o.overwrite;
+  p.allow_large = true;
+  PlanRequest request = request_of(p);
+  const Subject* subject = find_subject(row.function, row.type);
+  if (o.exhaustive && subject->can_exhaust()) request.strata.push_back(Stratum::exhaustive);
+  const auto take = [&](const RunResult& result) -> Verdict {
+    add_records(result.records, found);
+    return Standing::pass;
+  };
+  static_cast<void>(run_and_write({std::move(request), {}}, p, nullptr, take));
+}
+
+Json searched(const Subject& subject, const ClaimOptions& o) {
+  const InterruptGuard guard;
+  const auto search = make_search(subject, o.seed);
+  while (search->evaluations() < o.evaluations) {
+    if (interrupted()) throw Failure(Standing::incomplete, "interrupted; --resume goes on");
+    if (!run_round(*search, o.evaluations - search->evaluations(), threads_of(o), subject)) break;
+  }
+  Json mismatches = Json::array();
+  for (const auto& [outcome, m] : search->mismatches())
+    mismatches.push_back(
+        {{"outcome", name_of(outcome)}, {"count", m.confirmed}, {"args", subject.point(m.args).args_hex}});
+  const SearchBest best = search->best();
+  return {{"seed", o.seed},
+          {"evaluations", search->evaluations()},
+          {"asked", o.evaluations},
+          {"code", subject.info().code_facts},
+          {"selection", subject.info().selection},
+          {"ulp", best.args.empty() ? -1 : best.error_ulp},
+          {"args", best.args.empty() ? std::vector<std::string>{} : subject.point(best.args).args_hex},
+          {"mismatches", mismatches}};
+}
+
+void search_worst(const ListedFunction& row, const Subject& subject, const ClaimOptions& o,
+                  ClaimFound& found) {
+  if (o.evaluations == 0 || !can_search(subject)) return;
+  const auto file = path_of(row, o) / search_file;
+  Json result;
+  if (!o.overwrite && std::filesystem::exists(file)) {
+    result = Json::parse(read_file(file), nullptr, false);
+    const bool same = result.is_object() && result.value("seed", Json()) == o.seed &&
+                      result.value("asked", Json()) == o.evaluations &&
+                      result.value("code", Json()) == Json(subject.info().code_facts) &&
+                      result.value("selection", Json()) == subject.info().selection;
+    if (!same) result = Json();
+  }
+  if (result.is_null()) {
+    result = searched(subject, o);
+    write_file(file, result.dump(2) + "\n");
+  }
+  found.arguments += result.at("evaluations").get<std::uint64_t>();
+  if (const auto ulp = result.at("ulp").get<double>(); ulp > found.largest_ulp) {
+    found.largest_ulp = ulp;
+    found.where = "search";
+    found.args = result.at("args").get<std::vector<std::string>>();
+  }
+  for (const auto& m : result.at("mismatches")) {
+    const auto outcome = m.at("outcome").get<std::string>();
+    if (std::ranges::find(found.mismatches, outcome, &ClaimFound::Mismatch::outcome) ==
+        found.mismatches.end())
+      found.mismatches.push_back({outcome, m.at("count"), m.at("args")});
+  }
+}
+
+}  // namespace
+
+std::string directory_of(const ListedFunction& row) {
+  std::string name = fmt::format("{}-{}-{}", row.function, row.type, row.spec.symbol);
+  // One symbol may have claims on several domains.
+  for (const auto& [low, high] : row.claim.domain) name += fmt::format("-{}_{}", low, high);
+  for (auto& c : name)
+    if (c == '/') c = '_';
+  return name;
+}
+
+ClaimFound hold_to_claim(const ListedFunction& row, const BoundFunction& bound, const ClaimOptions& o) {
+  const auto start = Clock::now();
+  const FunctionInfo& f = function_or_fail(row.function);
+  ClaimFound found;
+  found.implementation = bound.subject->info().implementation;
+  measure_strata(row, o, found);
+  search_worst(row, *bound.subject, o, found);
+  found.properties = broken_properties(*bound.code, f, bound.element, row.claim, o.seed);
+  found.sample = sampled_results(*bound.code, f, bound.element, row.claim, o.seed);
+  found.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return found;
+}
+
+}  // namespace ulpgate::app

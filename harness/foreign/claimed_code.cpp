@@ -1,0 +1,144 @@
+// ClaimedCode.
+#include "harness/foreign/claimed_code.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "reference/native/native_functions.hpp"
+#include "reference/oracle/oracle.hpp"
+#include "reference/types/exchange.hpp"
+
+namespace ulpgate {
+
+namespace {
+
+// A type of the C library with many more bits than Real, whose functions rounded to Real are right but for
+// ties.
+template <class Real>
+struct WiderOf {
+  using type = void;
+};
+template <>
+struct WiderOf<float> {
+  using type = double;
+};
+template <>
+struct WiderOf<double> {
+  using type = std::conditional_t<std::numeric_limits<long double>::digits == 64, long double, void>;
+};
+
+template <RealType Real>
+class ClaimedCode final : public BatchCode {
+ public:
+  using Wide = typename WiderOf<Real>::type;
+
+  ClaimedCode(const BatchCode& code, const FunctionInfo& f, ClaimBounds bounds)
+      : code_(code), function_(f), bounds_(std::move(bounds)) {}
+
+  void evaluate(const void* args, void* results, std::uint8_t* threw, std::size_t count) const override {
+    code_.evaluate(args, results, threw, count);
+    const auto* x = static_cast<const Real*>(args);
+    auto* y = static_cast<Real*>(results);
+    const auto arity = static_cast<std::size_t>(function_.arity);
+    std::vector<std::size_t> beyond;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (threw[i] != 0) continue;
+      if (!inside(x + i * arity)) {
+        beyond.push_back(i);
+      } else if (bounds_.floor > 0 && !(magnitude(y[i]) >= reach())) {
+        replace_within_floor(x + i * arity, y[i]);
+      }
+    }
+    replace(x, y, beyond);
+  }
+  void call(const void* args, void* results, std::size_t count, int rounds) const override {
+    code_.call(args, results, count, rounds);
+  }
+  [[nodiscard]] std::size_t batch() const override { return code_.batch(); }
+
+ private:
+  [[nodiscard]] bool inside(const Real* x) const {
+    for (std::size_t j = 0; j < bounds_.domain.size(); ++j) {
+      const auto& [low, high] = bounds_.domain[j];
+      if (!(x[j] >= Real(low) && x[j] <= Real(high))) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] static double magnitude(const Real& y) { return std::fabs(static_cast<double>(y)); }
+  // Beyond it half a unit in the last place is more than the floor.
+  [[nodiscard]] double reach() const {
+    return std::ldexp(bounds_.floor, std::numeric_limits<Real>::digits + 1);
+  }
+
+  // At 64 bits more than Real has.
+  [[nodiscard]] MpfrValue exact(const Real* x) const {
+    std::vector<MpfrValue> args;
+    for (int j = 0; j < function_.arity; ++j) {
+      args.emplace_back(std::numeric_limits<Real>::digits);
+      to_mpfr(args.back().get(), x[j]);
+    }
+    std::vector<MpfrValue> value;
+    value.emplace_back(std::numeric_limits<Real>::digits + 64);
+    exact_value(function_, args, value);
+    return std::move(value.front());
+  }
+
+  void replace_within_floor(const Real* x, Real& y) const {
+    const MpfrValue value = exact(x);
+    if (mpfr_number_p(value.get()) == 0 || !(magnitude(y) <= std::numeric_limits<double>::max())) return;
+    const WideExponentRange wide;
+    MpfrValue error(std::numeric_limits<Real>::digits + 128);
+    to_mpfr(error.get(), y);
+    mpfr_sub(error, error, value, MPFR_RNDA);
+    if (mpfr_cmpabs(error, as_mpfr(bounds_.floor).get()) <= 0) y = from_mpfr<Real>(value.get());
+  }
+  [[nodiscard]] static MpfrValue as_mpfr(double x) {
+    MpfrValue v(53);
+    mpfr_set_d(v, x, MPFR_RNDN);
+    return v;
+  }
+
+  void replace(const Real* x, Real* y, const std::vector<std::size_t>& points) const {
+    if (points.empty()) return;
+    const auto arity = static_cast<std::size_t>(function_.arity);
+    if constexpr (!std::is_void_v<Wide>) {
+      if (const auto function = bounded_function<Wide>(function_.id); function != nullptr) {
+        std::vector<Wide> args;
+        for (const auto i : points)
+          for (std::size_t j = 0; j < arity; ++j) args.push_back(x[i * arity + j]);
+        std::vector<Wide> values(points.size());
+        std::vector<double> error(points.size());
+        function(args.data(), values.data(), error.data(), points.size(), std::numeric_limits<Real>::digits);
+        for (std::size_t p = 0; p < points.size(); ++p) {
+          // Where little is known of it, or its zero may be a small number.
+          constexpr double trusted = 16;
+          const bool known = error[p] >= 0 && error[p] <= trusted && values[p] != 0;
+          y[points[p]] =
+              known ? static_cast<Real>(values[p]) : from_mpfr<Real>(exact(x + points[p] * arity).get());
+        }
+        return;
+      }
+    }
+    for (const auto i : points) y[i] = from_mpfr<Real>(exact(x + i * arity).get());
+  }
+
+  const BatchCode& code_;
+  const FunctionInfo& function_;
+  ClaimBounds bounds_;
+};
+
+}  // namespace
+
+std::unique_ptr<BatchCode> make_claimed_code(const BatchCode& code, const FunctionInfo& f, char element,
+                                             ClaimBounds bounds) {
+  if (element == 'f') return std::make_unique<ClaimedCode<float>>(code, f, std::move(bounds));
+  if (element == 'd') return std::make_unique<ClaimedCode<double>>(code, f, std::move(bounds));
+#ifdef ULPGATE_HAVE_FLOAT128
+  if (element == 'q') return std::make_unique<ClaimedCode<Float128Real>>(code, f, std::move(bounds));
+#endif
+  return std::make_unique<ClaimedCode<long double>>(code, f, std::move(bounds));
+}
+
+}  // namespace ulpgate

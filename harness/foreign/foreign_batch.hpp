@@ -1,0 +1,57 @@
+// ForeignBatch: a batch of points in the hands of its thread, called in every way that tells what it is.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/foreign/foreign_call.hpp"
+#include "reference/ulp/ulp.hpp"
+
+namespace ulpgate {
+
+class ForeignBatch {
+ public:
+  // `args` outlives it: `count` points of the call's arity and element.
+  ForeignBatch(const ForeignCall& call, const unsigned char* args, std::size_t count)
+      : call_(call), args_(args), values_(count * call.size()), troubles_(count) {}
+
+  // Whether every point has a value, the same every time.  Throws ForeignHangs.
+  [[nodiscard]] bool run();
+
+  [[nodiscard]] const std::vector<unsigned char>& values() const { return values_; }
+  // Of each point 0, or which outcome from `exception` on, counted from 1.
+  [[nodiscard]] const std::vector<std::uint8_t>& troubles() const { return troubles_; }
+
+ private:
+  using Points = std::span<const std::uint32_t>;
+  // Is given a point that has a value.
+  using Take = std::function<void(std::uint32_t, const unsigned char*)>;
+
+  [[nodiscard]] bool same(const unsigned char* a, const unsigned char* b) const;
+  void put_arguments(ulpgate_channel& c, std::size_t slot, std::uint32_t i) const;
+  void give_trouble(std::uint32_t i, Outcome o);
+  // Of the points in this order.
+  void evaluate_all(Points points, const Take& take);
+  void evaluate(Points points, const Take& take, ulpgate_worker_mode mode);
+  void take_answers(Points points, const WorkerProcess& worker, const Take& take);
+  // A vector that ended its process: each of its points alone.
+  void settle_group(Points group, const Take& take, Outcome outcome);
+  // A point, or one of the lanes beside it, changed the environment.
+  void settle_environment(std::uint32_t i, const Take& take);
+  // Some points beside neighbours that vector code likes least.
+  void look_at_lanes(Points order, std::vector<std::uint32_t>& differing);
+  // The same batch in the same order and company: where that gives other bits it is no function, else its
+  // lanes matter.
+  void explain(const std::vector<std::uint32_t>& differing);
+
+  const ForeignCall& call_;
+  const unsigned char* args_;
+  std::vector<unsigned char> values_;
+  std::vector<std::uint8_t> troubles_;
+  int hangs_ = 0;
+};
+
+}  // namespace ulpgate
