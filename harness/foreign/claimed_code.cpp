@@ -53,8 +53,8 @@ class ClaimedCode final : public BatchCode {
     }
     replace(x, y, beyond);
   }
-  void call(const void* args, void* results, std::size_t count, int rounds) const override {
-    code_.call(args, results, count, rounds);
+  double call(const void* args, void* results, std::size_t count, int rounds) const override {
+    return code_.call(args, results, count, rounds);
   }
   [[nodiscard]] std::size_t batch() const override { return code_.batch(); }
 

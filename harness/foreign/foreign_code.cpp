@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 
@@ -119,21 +120,27 @@ void ForeignCode::evaluate(const void* args, void* results, std::uint8_t* threw,
   std::ranges::copy(again.troubles(), threw);
 }
 
-void ForeignCode::call(const void* args, void* results, std::size_t count, int rounds) const {
+double ForeignCode::call(const void* args, void* results, std::size_t count, int rounds) const {
+  using Clock = std::chrono::steady_clock;
+  double seconds = 0;
   const std::size_t size = call_.size();
   for (std::size_t first = 0; first < count; first += ulpgate_channel_points) {
     const std::size_t n = std::min<std::size_t>(ulpgate_channel_points, count - first);
     WorkerProcess& w = call_.worker();
     std::memcpy(w.channel().arguments, static_cast<const unsigned char*>(args) + first * call_.arity() * size,
                 n * call_.arity() * size);
+    const auto start = Clock::now();
     if (w.request(static_cast<std::uint32_t>(n), ulpgate_worker_whole, static_cast<std::uint32_t>(rounds)) !=
         WorkerEnd::answered) {
       call_.drop_worker();
+      seconds += std::chrono::duration<double>(Clock::now() - start).count();
       continue;
     }
+    seconds += 1e-9 * static_cast<double>(w.channel().elapsed_ns);
     auto* to = static_cast<unsigned char*>(results) + first * size;
     for (std::size_t i = 0; i < n; ++i) std::memcpy(to + i * size, call_.result(w.channel(), i), size);
   }
+  return seconds;
 }
 
 }  // namespace ulpgate

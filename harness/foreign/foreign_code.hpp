@@ -24,7 +24,7 @@ class ForeignCode final : public BatchCode {
   ForeignCode(ForeignSpec spec, const ForeignShape& shape);
 
   void evaluate(const void* args, void* results, std::uint8_t* threw, std::size_t count) const override;
-  void call(const void* args, void* results, std::size_t count, int rounds) const override;
+  double call(const void* args, void* results, std::size_t count, int rounds) const override;
   [[nodiscard]] std::size_t batch() const override;
 
   [[nodiscard]] const ForeignSpec& spec() const { return call_.spec(); }

@@ -217,6 +217,32 @@ def test_the_same_by_fetchcontent(tmp_path):
     assert run("ctest", "--test-dir", build)[0] == 0
 
 
+def test_a_package_of_debian(tmp_path):
+    for program in ("cpack", "dpkg-deb", "dpkg-shlibdeps"):
+        if shutil.which(program) is None:
+            pytest.skip(f"no {program}")
+    code, text = run("cpack", "--config", f"{BUILD}/CPackConfig.cmake", "-B", tmp_path)
+    assert code == 0, text
+    (package,) = tmp_path.glob("*.deb")
+    code, depends = run("dpkg-deb", "-f", package, "Depends")
+    assert "libmpfr6" in depends and "libc6" in depends
+    # Unpacked beside the system, as its own rules have it.
+    root = tmp_path / "root"
+    assert run("dpkg-deb", "-x", package, root)[0] == 0
+    ulpgate = root / "usr/bin/ulpgate"
+    words = ["at", "exp", "double", "1", "--library", "libm.so.6", "--symbol", "exp"]
+    code, text = run(ulpgate, *words, cwd=tmp_path)
+    assert code == 0 and "libm.so.6 exp" in text, text
+    measuring = ["--functions", "exp", "--types", "double", "--samples", "100"]
+    code, text = run(ulpgate, "math", *measuring, "--out", tmp_path / "run")
+    assert code == 0, text
+    code, text = run(ulpgate, "report", tmp_path / "run", "--out", tmp_path / "page")
+    assert code == 0 and (tmp_path / "page/index.html").exists(), text
+    mine = project(tmp_path / "mine", FOUR_LINES, LENGTH)
+    build = built(mine, tmp_path / "build", root / "usr")
+    assert run("ctest", "--test-dir", build)[0] == 0
+
+
 MATCHED = """
 #include <cmath>
 TEST_OF(good) {

@@ -278,6 +278,12 @@ static thunk_t thunk_of(const struct ulpgate_signature* s) {
   return NULL;
 }
 
+static uint64_t now_ns(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (uint64_t)t.tv_sec * 1000000000U + (uint64_t)t.tv_nsec;
+}
+
 static void serve(function_t f, const struct ulpgate_signature* s, thunk_t thunk) {
   uint32_t done = __atomic_load_n(&channel->reply, __ATOMIC_ACQUIRE);
   for (;;) {
@@ -296,7 +302,9 @@ static void serve(function_t f, const struct ulpgate_signature* s, thunk_t thunk
         memset(channel->changed_points + i, environment_changed(), last - i);
       }
     } else {
+      const uint64_t start = now_ns();
       for (uint32_t round = 0; round < channel->rounds; ++round) thunk(f, s, 0, count);
+      channel->elapsed_ns = now_ns() - start;
       environment_changed();
     }
     note_replaced_handlers();

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 /* Raise it when anything below changes: a worker of another build is refused rather than misread. */
-enum { ulpgate_channel_version = 1, ulpgate_channel_magic = 0x55504757 };
+enum { ulpgate_channel_version = 2, ulpgate_channel_magic = 0x55504757 };
 /* The descriptor under which a worker finds the channel. */
 enum { ulpgate_channel_fd = 3 };
 /* The most points of a request, and values of the widest type that its arguments and its results may take. */
@@ -44,9 +44,10 @@ struct ulpgate_channel {
   uint32_t mode;
   uint32_t state;
   int32_t signal;
-  uint32_t rounds;  /* how often, where the batch is whole */
-  uint32_t changed; /* 1 where a point or the batch left another environment behind: the first such one is
-                       `after` */
+  uint64_t elapsed_ns; /* that a whole batch took, all rounds */
+  uint32_t rounds;     /* how often, where the batch is whole */
+  uint32_t changed;    /* 1 where a point or the batch left another environment behind: the first such one is
+                          `after` */
   struct ulpgate_environment after;
   /* That of a process before and behind the library's constructors. */
   struct ulpgate_environment at_start;

@@ -20,8 +20,8 @@ class BatchCode {
   virtual ~BatchCode() = default;
   // As BatchFunction, of a type that it was made for; called by several threads at once.
   virtual void evaluate(const void* args, void* results, std::uint8_t* threw, std::size_t count) const = 0;
-  // So many times each, with no checks of any kind: for timing.
-  virtual void call(const void* args, void* results, std::size_t count, int rounds) const = 0;
+  // So many times each, with no checks of any kind: for timing.  Returns the seconds that it took.
+  virtual double call(const void* args, void* results, std::size_t count, int rounds) const = 0;
   // Points that are best evaluated together.
   [[nodiscard]] virtual std::size_t batch() const = 0;
 };

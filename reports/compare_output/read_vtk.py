@@ -2,6 +2,8 @@
 
 Format: "VTK File Formats", The VTK User's Guide, chapter 19.  Binary values are big-endian.
 """
+from urllib.parse import unquote
+
 import numpy as np
 
 from compare_output import numbers
@@ -78,6 +80,7 @@ class _Reader:
         return texts
 
     def add(self, place, name, count, components, kind):
+        name = unquote(name)  # blanks and their like in names
         values = self.values(count * components, kind)
         if place not in self.tables:
             self.tables[place] = Table(f"{self.path} ({place})")
@@ -94,9 +97,17 @@ class _Reader:
             column = name if components == 1 else f"{name}_{suffix}"
             table.add(Column(column, part, whole=whole))
 
+    def skip_metadata(self):
+        """What VTK writes behind an array of its keys: it ends with an empty line."""
+        while self.at < len(self.data) and self.data[self.at] != 10:
+            self.line()
+
     def field(self, place, arrays):
         for _ in range(arrays):
             words = (self.line() or "").split()
+            while words == ["METADATA"]:
+                self.skip_metadata()
+                words = (self.line() or "").split()
             if len(words) != 4:
                 self.fail(
                     "an array of a FIELD begins with its name, components, tuples and type"
@@ -144,8 +155,7 @@ class _Reader:
                 elif word == "TEXTURE_COORDINATES":
                     self.add(place, words[1], count, int(words[2]), words[3])
                 elif word == "METADATA":
-                    while self.at < len(self.data) and self.data[self.at] != 10:
-                        self.line()
+                    self.skip_metadata()
                 elif word in ("DATASET", "DIMENSIONS", "ORIGIN", "SPACING"):
                     if word != "DATASET":
                         self.facts(word.lower(), words[1:])

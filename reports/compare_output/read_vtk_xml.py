@@ -1,9 +1,11 @@
-"""VTK's XML files (.vtp .vtu .vti .vtr .vts): ASCII, base64 and appended data, whole or compressed by zlib.
+"""VTK's XML files (.vtp .vtu .vti .vtr .vts): ASCII, base64 and appended data, whole or compressed by zlib, LZMA or LZ4
+(that one with python3-lz4).
 
 Format: "VTK XML File Formats", https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html.
 """
 import base64
 import binascii
+import lzma
 import xml.etree.ElementTree as ElementTree
 import zlib
 
@@ -13,6 +15,8 @@ from compare_output import numbers
 from compare_output.problem import BAD_INPUT, Problem
 from compare_output.tables import Column, Table
 
+# What decompressors raise.
+_BROKEN = (zlib.error, lzma.LZMAError, ValueError, MemoryError)
 _TYPES = {
     "Float32": "f4",
     "Float64": "f8",
@@ -49,12 +53,32 @@ class _Reader:
         self.order = "<" if self.root.get("byte_order") == "LittleEndian" else ">"
         self.header = _TYPES[self.root.get("header_type", "UInt32")]
         compressor = self.root.get("compressor")
-        if compressor not in (None, "vtkZLibDataCompressor"):
-            self.fail(f"data compressed by {compressor} are not read here, zlib's are")
         self.compressed = compressor is not None
+        self.decompress = self.decompressor(compressor) if self.compressed else None
 
     def fail(self, what):
         raise Problem(BAD_INPUT, f"{self.path}: {what}")
+
+    def decompressor(self, name):
+        """(bytes of a block, its size when it is not the last) -> what was compressed."""
+        if name == "vtkZLibDataCompressor":
+            return lambda block, _: zlib.decompress(block)
+        if name == "vtkLZMADataCompressor":
+            return lambda block, _: lzma.decompress(block)
+        if name != "vtkLZ4DataCompressor":
+            self.fail(f"data compressed by {name} are not read here")
+        try:
+            from lz4.block import LZ4BlockError, decompress
+        except ImportError:
+            self.fail(f"data compressed by {name} want python3-lz4")
+
+        def lz4(block, size):
+            try:
+                return decompress(block, uncompressed_size=size)
+            except LZ4BlockError as e:
+                raise ValueError(e) from None
+
+        return lz4
 
     def without_appended(self, data):
         """Raw bytes are no XML: they are cut out first."""
@@ -104,17 +128,17 @@ class _Reader:
             head, chars = base64_of(data, length)
         else:
             head, chars = data[:length], length
-        sizes = words(head, 3 + blocks)[3:]
-        total = int(sizes.sum())
+        _, block_size, _, *sizes = map(int, words(head, 3 + blocks))
+        total = sum(sizes)
         rest = data[chars:]
         body = base64_of(rest, total)[0] if is_base64 else rest[:total]
         out, at = [], 0
         for n in sizes:
             try:
-                out.append(zlib.decompress(body[at : at + n]))
-            except zlib.error as e:
+                out.append(self.decompress(body[at : at + n], block_size))
+            except _BROKEN as e:
                 self.fail(f"a compressed block: {e}")
-            at += int(n)
+            at += n
         return b"".join(out)
 
     def array(self, element):

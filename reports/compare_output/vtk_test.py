@@ -2,13 +2,20 @@
 
 import base64
 import json
+import lzma
 import struct
 import zlib
 
+import numpy as np
 import pytest
 
 from compare_output import cli, read
 from compare_output.problem import BAD_INPUT, DIFFERENT, PASS, Problem
+
+try:
+    import lz4.block
+except ImportError:
+    lz4 = None
 
 POINTS = [0.0, 0.25, -1.5, 2.0, 3.0, 4.0]  # two points
 RADIUS = [0.5, 0.125]
@@ -39,14 +46,40 @@ def legacy_binary(radius=RADIUS):
     )
 
 
-def xml(radius=RADIUS, form="ascii", compressed=False, order="<", header="I"):
+def zlib_of(block):
+    return zlib.compress(block)
+
+
+def lzma_of(block):
+    return lzma.compress(block)
+
+
+def lz4_of(block):
+    return lz4.block.compress(block, store_size=False)
+
+
+COMPRESSORS = {
+    "vtkZLibDataCompressor": zlib_of,
+    "vtkLZMADataCompressor": lzma_of,
+    "vtkLZ4DataCompressor": lz4_of,
+}
+
+
+def xml(
+    radius=RADIUS,
+    form="ascii",
+    compressed=False,
+    order="<",
+    header="I",
+    compressor="vtkZLibDataCompressor",
+):
     appended = []
 
     def encoded(raw):
         if not compressed:
             return struct.pack(order + header, len(raw)) + raw, None
-        blocks = [raw[:16], raw[16:]] if len(raw) > 16 else [raw]
-        packed = [zlib.compress(b) for b in blocks]
+        blocks = [raw[i : i + 16] for i in range(0, len(raw), 16)]
+        packed = [COMPRESSORS[compressor](b) for b in blocks]
         last = len(blocks[-1]) if len(blocks) > 1 and len(blocks[-1]) < 16 else 0
         head = struct.pack(
             f"{order}{3 + len(blocks)}{header}",
@@ -91,7 +124,7 @@ def xml(radius=RADIUS, form="ascii", compressed=False, order="<", header="I"):
         )
     endian = "LittleEndian" if order == "<" else "BigEndian"
     head = f'<?xml version="1.0"?><VTKFile type="PolyData" version="1.0" byte_order="{endian}" header_type="{"UInt64" if header == "Q" else "UInt32"}"'
-    head += ' compressor="vtkZLibDataCompressor">' if compressed else ">"
+    head += f' compressor="{compressor}">' if compressed else ">"
     return head.encode() + body.encode() + tail + b"</VTKFile>"
 
 
@@ -123,6 +156,76 @@ def test_xml(tmp_path, how):
     assert tables["points"].columns["radius"].numbers.high.tolist() == RADIUS
     assert tables["points"].columns["Points_y"].numbers.high.tolist() == [0.25, 3.0]
     assert tables["verts connectivity"].columns["connectivity"].whole
+
+
+@pytest.mark.parametrize("compressor", list(COMPRESSORS))
+@pytest.mark.parametrize("form", ["binary", "appended_raw"])
+def test_compressors(tmp_path, compressor, form):
+    if compressor == "vtkLZ4DataCompressor" and lz4 is None:
+        pytest.skip("no python3-lz4")
+    file = tmp_path / "a.vtp"
+    whole = xml(form=form, compressed=True, compressor=compressor)
+    file.write_bytes(whole)
+    assert read.read(file)["points"].columns["radius"].numbers.high.tolist() == RADIUS
+    if form == "appended_raw":
+        # A byte of a block's beginning.
+        at = whole.index(b"\n_") + 2 + 4 * 4
+        file.write_bytes(whole[:at] + b"\x9f" + whole[at + 1 :])
+        with pytest.raises(Problem) as e:
+            read.read(file)
+        assert e.value.code == BAD_INPUT and "a compressed block" in str(e.value)
+
+
+def test_an_unknown_compressor_is_named(tmp_path):
+    file = tmp_path / "a.vtp"
+    file.write_bytes(xml(form="binary", compressed=True).replace(b"vtkZLib", b"vtkFoo"))
+    with pytest.raises(Problem, match="vtkFooDataCompressor"):
+        read.read(file)
+
+
+KEYS = b"METADATA\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0.125 0.5\n\n"
+
+
+def test_keys_behind_arrays_are_passed_over(tmp_path):
+    file = tmp_path / "a.vtk"
+    field = b"POINT_DATA 2\nFIELD FieldData 2\nthe%20mass 1 2 double\n1 2\n" + KEYS
+    field += b"radius 1 2 double\n0.5 0.125\n" + KEYS
+    head = b"# vtk DataFile Version 5.1\ntwo\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n0 0 0 1 1 1\n"
+    file.write_bytes(head + KEYS + field)
+    columns = read.read(file)["points"].columns
+    assert columns["radius"].numbers.high.tolist() == RADIUS
+    assert columns["the mass"].numbers.high.tolist() == [1, 2]
+
+
+@pytest.mark.parametrize("how", ["legacy-ascii", "legacy-binary", "xml", "xml-raw"])
+def test_what_vtk_itself_writes(tmp_path, how):
+    vtk = pytest.importorskip("vtk", reason="no python3-vtk9")
+    from vtk.util.numpy_support import numpy_to_vtk
+
+    places = np.random.default_rng(1).standard_normal((50, 3))
+    points, data, cells = vtk.vtkPoints(), vtk.vtkPolyData(), vtk.vtkCellArray()
+    points.SetData(numpy_to_vtk(places, deep=1))
+    for i in range(50):
+        cells.InsertNextCell(1, [i])
+    speeds = numpy_to_vtk(2 * places, deep=1)
+    speeds.SetName("speed of it")
+    data.SetPoints(points)
+    data.SetVerts(cells)
+    data.GetPointData().AddArray(speeds)
+    legacy = how.startswith("legacy")
+    writer = vtk.vtkPolyDataWriter() if legacy else vtk.vtkXMLPolyDataWriter()
+    writer.SetInputData(data)
+    file = tmp_path / ("a.vtk" if legacy else "a.vtp")
+    writer.SetFileName(str(file))
+    if how == "legacy-binary":
+        writer.SetFileTypeToBinary()
+    if how == "xml-raw":
+        writer.EncodeAppendedDataOff()
+    assert writer.Write() == 1
+    read_back = read.read(file)["points"].columns["speed of it_y"].numbers.high
+    # ASCII of VTK has fewer digits than a double.
+    close = 1e-9 if how == "legacy-ascii" else 0
+    assert np.max(np.abs(read_back - 2 * places[:, 1])) <= close
 
 
 def test_the_same_arrays_in_two_formats_agree(tmp_path, capfd):

@@ -90,9 +90,24 @@ def slowed(directory, name, factor):
     file.write_text("".join(json.dumps(row) + "\n" for row in rows))
 
 
+def calmed(directory):
+    """The same run as on a machine that nothing disturbs: repeats within 2 % of each other."""
+    file = directory / "timing_repeats.jsonl"
+    rows = [json.loads(line) for line in file.read_text().splitlines()]
+    for row in rows:
+        for key in ("ns", "baseline_ns"):
+            least = min(min(times) for times in row[key])
+            row[key] = [
+                [least * (1 + 0.004 * ((3 * i + j) % 5)) for i in range(len(times))]
+                for j, times in enumerate(row[key])
+            ]
+    file.write_text("".join(json.dumps(row) + "\n" for row in rows))
+
+
 def test_a_slower_function_is_named_and_no_other(tmp_path):
     repeats = ("repeats", "--timing-processes", "5", "--timing-rounds", "7")
     first = math(tmp_path / "first", "--functions", "exp,sin,log,atan", timing=repeats)
+    calmed(first)
     for factor, word, code in (
         (3, "slower", 1),
         (1 / 3, "faster", 0),

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <sstream>
 
 #include "harness/app/machine/child_process.hpp"
@@ -20,14 +19,6 @@ namespace ulpgate::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_of(const TimedBatch& batch, std::size_t count, int rounds) {
-  const auto start = Clock::now();
-  batch(count, rounds);
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 constexpr std::size_t batch_size = 512;
 
 constexpr std::string_view phase = "timing";
@@ -41,15 +32,15 @@ class TimedRow {
       : record_{what, token, 0, 0, batch_size}, batch_(find_subject(what, token)->timed_batch(batch_size)) {
     constexpr double enough_s = 5e-4;
     const WorkPlace place(what, token, phase);
-    if (seconds_of(batch_, 32, 1) > 2e-3) record_.batch = 32;
-    while (seconds_of(batch_, record_.batch, rounds_) < enough_s) rounds_ *= 2;
+    if (batch_(32, 1) > 2e-3) record_.batch = 32;
+    while (batch_(record_.batch, rounds_) < enough_s) rounds_ *= 2;
   }
 
   // Nanoseconds per evaluation of one more repeat.
   double repeat() {
     const WorkPlace place(record_.what, record_.type, phase);
     const double evaluations = static_cast<double>(record_.batch) * rounds_;
-    const double ns = 1e9 * seconds_of(batch_, record_.batch, rounds_) / evaluations;
+    const double ns = 1e9 * batch_(record_.batch, rounds_) / evaluations;
     record_.ns_per_eval = record_.repeats++ == 0 ? ns : std::min(record_.ns_per_eval, ns);
     return ns;
   }

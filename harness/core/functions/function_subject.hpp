@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 
 #include "harness/core/arguments/sampling.hpp"
 #include "harness/core/functions/calls_in_hand.hpp"
@@ -107,12 +108,15 @@ class FunctionSubject final : public Subject {
     std::vector<Real> results(count * static_cast<std::size_t>(function_.parts));
     Arguments<Real>(function_, {Stratum::uniform, 1, count, nullptr}).make_all(0, count, args.data());
     return [call = call_, args, results, threw = std::vector<std::uint8_t>(count)](std::size_t n,
-                                                                                          int rounds) mutable {
+                                                                                   int rounds) mutable {
       if (call.code() != nullptr) return call.code()->call(args.data(), results.data(), n, rounds);
+      using Clock = std::chrono::steady_clock;
+      const auto start = Clock::now();
       for (int i = 0; i < rounds; ++i) {
         Heartbeat::mine().beat(WorkPhase::none);
         call(args.data(), results.data(), threw.data(), n);
       }
+      return std::chrono::duration<double>(Clock::now() - start).count();
     };
   }
 

@@ -2,6 +2,7 @@
 // type.
 #pragma once
 
+#include <chrono>
 #include <cmath>
 
 #include "harness/core/kernels/kernel_states.hpp"
@@ -82,11 +83,14 @@ class KernelSubject final : public Subject {
     const States<Real> states(kernel_, {Stratum::typical, 1, count, nullptr});
     for (std::size_t i = 0; i < count; ++i) states.make(i, &inputs[i * kernel_.input_components()]);
     return [call = call_, inputs, results, threw = std::vector<std::uint8_t>(count)](std::size_t n,
-                                                                                            int rounds) mutable {
+                                                                                     int rounds) mutable {
+      using Clock = std::chrono::steady_clock;
+      const auto start = Clock::now();
       for (int i = 0; i < rounds; ++i) {
         Heartbeat::mine().beat(WorkPhase::none);
         call(inputs.data(), results.data(), threw.data(), n);
       }
+      return std::chrono::duration<double>(Clock::now() - start).count();
     };
   }
 

@@ -72,8 +72,9 @@ struct CodeNames {
   std::vector<std::pair<std::string, std::string>> facts;
 };
 
-// A prepared batch of arguments: evaluates its first `count` points, so many times over.
-using TimedBatch = std::function<void(std::size_t count, int rounds)>;
+// A prepared batch of arguments: evaluates its first `count` points, so many times over, and returns the
+// seconds that it took, of which waking another process is none.
+using TimedBatch = std::function<double(std::size_t count, int rounds)>;
 
 class Subject {
  public:
