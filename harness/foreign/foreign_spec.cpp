@@ -23,6 +23,9 @@ std::string vector_abi_signature(const std::string& symbol, char element) {
   const std::string operand = fmt::format("v{}{}", lanes, element);
   if (kinds == "v") return fmt::format("{0}({0})", operand);
   if (kinds == "vv") return fmt::format("{0}({0},{0})", operand);
+  // sincos: a pointer for each lane.
+  if (kinds == "vvv" && symbol.find("_sincos") == end) return fmt::format("void({0},{0}*,{0}*)", operand);
+  if (kinds == "vvv") return fmt::format("{0}({0},{0},{0})", operand);
   if (kinds == "vl8l8" || kinds == "vl4l4") return fmt::format("void({0},{1}*,{1}*)", operand, element);
   return "";
 }

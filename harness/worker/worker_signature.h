@@ -6,6 +6,7 @@
  *   v4d(v4d)  v4d(v4d,v4d)      vectors of 128, 256 or 512 bits by value: v2d v4d v8d v4f v8f v16f
  *   void(n,d*,d*)  void(n,d*,d*,d*)   arrays of any length, arguments first
  *   void(d,d*,d*)  void(v4d,d*,d*)    sincos: two results
+ *   void(v4d,v4d*,v4d*)         sincos of the vector ABI's "vvv": vectors of pointers, one for each lane
  */
 #ifndef ULPGATE_WORKER_SIGNATURE_H
 #define ULPGATE_WORKER_SIGNATURE_H
@@ -13,10 +14,11 @@
 #include <string.h>
 
 enum ulpgate_shape {
-  ulpgate_shape_value,  /* results are returned */
-  ulpgate_shape_sign,   /* returned, with a pointer to an int behind the arguments */
-  ulpgate_shape_arrays, /* a length, arrays of arguments, one of results */
-  ulpgate_shape_pair,   /* one argument, two pointers to results */
+  ulpgate_shape_value,     /* results are returned */
+  ulpgate_shape_sign,      /* returned, with a pointer to an int behind the arguments */
+  ulpgate_shape_arrays,    /* a length, arrays of arguments, one of results */
+  ulpgate_shape_pair,      /* one argument, two pointers to results */
+  ulpgate_shape_lane_pair, /* likewise, two vectors of pointers */
 };
 
 struct ulpgate_signature {
@@ -45,7 +47,7 @@ static inline int ulpgate_read_operand(const char** text, char* element, int* la
 
 /* Of the results that a call writes. */
 static inline int ulpgate_results_of(const struct ulpgate_signature* s) {
-  return s->shape == ulpgate_shape_pair ? 2 : 1;
+  return s->shape == ulpgate_shape_pair || s->shape == ulpgate_shape_lane_pair ? 2 : 1;
 }
 
 /* Returns 1, or 0 for anything that is no signature. */
@@ -66,12 +68,15 @@ static inline int ulpgate_parse_signature(const char* text, struct ulpgate_signa
       s.arguments = 1;
     }
     do {
-      if (!ulpgate_read_operand(&text, &element, &lanes) || *text++ != '*' || lanes != 1) return 0;
+      if (!ulpgate_read_operand(&text, &element, &lanes) || *text++ != '*') return 0;
+      if (lanes != 1 && (s.shape == ulpgate_shape_arrays || lanes != s.lanes)) return 0;
+      if (pointers > 0 && (lanes != 1) != (s.shape == ulpgate_shape_lane_pair)) return 0;
+      if (lanes != 1) s.shape = ulpgate_shape_lane_pair;
       if (pointers == 0 && s.shape == ulpgate_shape_arrays) s.element = element;
       if (element != s.element) return 0;
       ++pointers;
     } while (*text == ',' && *++text != '\0');
-    if (s.shape == ulpgate_shape_pair && pointers != 2) return 0;
+    if (s.shape != ulpgate_shape_arrays && pointers != 2) return 0;
     if (s.shape == ulpgate_shape_arrays) s.arguments = pointers - 1;
   } else {
     if (!ulpgate_read_operand(&text, &s.element, &s.lanes) || *text++ != '(') return 0;

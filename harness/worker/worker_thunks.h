@@ -52,6 +52,7 @@ SCALAR_THUNK(scalar_q, __float128)
 /* The last vector of a range is filled up with its last point. */
 #define VECTOR_THUNK(NAME, T, LANES, TARGET)                                                                \
   typedef T NAME##_vector __attribute__((vector_size(LANES * sizeof(T))));                                  \
+  typedef uint64_t NAME##_addresses __attribute__((vector_size(LANES * sizeof(T))));                        \
   TARGET static void NAME(function_t f, const struct ulpgate_signature* s, uint32_t first, uint32_t last) { \
     typedef NAME##_vector V;                                                                                \
     const T* a = (const T*)channel->arguments;                                                              \
@@ -71,6 +72,23 @@ SCALAR_THUNK(scalar_q, __float128)
         for (uint32_t k = 0; k < n; ++k) {                                                                  \
           r[2 * (i + k)] = sine[k];                                                                         \
           r[2 * (i + k) + 1] = cosine[k];                                                                   \
+        }                                                                                                   \
+        continue;                                                                                           \
+      }                                                                                                     \
+      if (s->shape == ulpgate_shape_lane_pair) {                                                            \
+        /* As many vectors of addresses as their width wants: one of doubles, two of floats. */             \
+        NAME##_addresses p[4];                                                                              \
+        enum { per = sizeof(V) / sizeof(uint64_t), vectors = LANES / per };                                 \
+        T unused;                                                                                           \
+        for (uint32_t k = 0; k < LANES; ++k) {                                                              \
+          p[k / per][k % per] = (uint64_t)(uintptr_t)(k < n ? r + 2 * (i + k) : &unused);                   \
+          p[vectors + k / per][k % per] = (uint64_t)(uintptr_t)(k < n ? r + 2 * (i + k) + 1 : &unused);     \
+        }                                                                                                   \
+        typedef NAME##_addresses A;                                                                         \
+        if (vectors == 1) {                                                                                 \
+          ((void (*)(V, A, A))f)(x[0], p[0], p[1]);                                                         \
+        } else {                                                                                            \
+          ((void (*)(V, A, A, A, A))f)(x[0], p[0], p[1], p[2], p[3]);                                       \
         }                                                                                                   \
         continue;                                                                                           \
       }                                                                                                     \

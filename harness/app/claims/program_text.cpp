@@ -78,7 +78,7 @@ std::string program_text(const ListedFunction& row, const BoundFunction& bound,
   const std::string type = c_type(bound.element);
   ulpgate_signature s;
   if (type.empty() || ulpgate_parse_signature(bound.facts.signature.c_str(), &s) == 0) return "";
-  if (s.shape == ulpgate_shape_pair || s.shape == ulpgate_shape_arrays || s.integer != 0) return "";
+  if (ulpgate_results_of(&s) == 2 || s.shape == ulpgate_shape_arrays || s.integer != 0) return "";
   const FunctionInfo& f = function_or_fail(row.function);
   const Parts exact = parts_of(f, bound.subject->type(), args);
   const std::string& library = row.spec.library;

@@ -69,6 +69,7 @@ SHAPES = {
     "arrays_sin": ["--signature", "void(n,d*,d*)"],
     "vector_sin": ["--signature", "v2d(v2d)"],
     "vector_sincos": ["--signature", "void(v2d,d*,d*)"],
+    "pointers_sincos": ["--signature", "void(v2d,v2d*,v2d*)"],
 }
 
 
@@ -84,6 +85,11 @@ def test_every_shape_gives_what_a_call_in_process_gives(
 
 CALLED = {
     "good_sinf": ("sin", "float", []),
+    "pointers_sincosf": (
+        "cos",
+        "float",
+        ["--signature", "void(v4f,v4f*,v4f*)"],
+    ),
     "good_sinl": ("sin", "long_double", []),
     "sign_lgamma": ("lgamma", "double", ["--signature", "d(d,i*)"]),
     "arrays_pow": ("pow", "double", ["--signature", "void(n,d*,d*,d*)"]),
@@ -190,6 +196,39 @@ def test_one_that_hangs_everywhere_ends_the_run(tmp_path, library):
         (["--library", "libm.so.6"], "--symbol"),
         (["--symbol", "sin"], "--library"),
         (["--library", "libm.so.6", "--symbol", "sin", "--signature", "d(d"], "d(d"),
+        (
+            [
+                "--library",
+                "libm.so.6",
+                "--symbol",
+                "sin",
+                "--signature",
+                "void(v2d,v2d*,d*)",
+            ],
+            "is none",
+        ),
+        (
+            [
+                "--library",
+                "libm.so.6",
+                "--symbol",
+                "sin",
+                "--signature",
+                "void(v2d,v4d*,v4d*)",
+            ],
+            "is none",
+        ),
+        (
+            [
+                "--library",
+                "libm.so.6",
+                "--symbol",
+                "sin",
+                "--signature",
+                "void(n,v2d*,v2d*)",
+            ],
+            "is none",
+        ),
         (
             ["--library", "libm.so.6", "--symbol", "sin", "--signature", "f(f)"],
             "another type",

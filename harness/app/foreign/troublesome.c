@@ -5,9 +5,15 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-double good_sin(double x) { return sin(x); }
-float good_sinf(float x) { return sinf(x); }
-long double good_sinl(long double x) { return sinl(x); }
+double good_sin(double x) {
+  return sin(x);
+}
+float good_sinf(float x) {
+  return sinf(x);
+}
+long double good_sinl(long double x) {
+  return sinl(x);
+}
 
 double crash_at_one(double x) {
   if (x == 1) *(volatile int*)8 = 1;
@@ -59,10 +65,14 @@ void arrays_crash_at_one(long n, const double* x, double* y) {
 void arrays_pow(long n, const double* x, const double* y, double* z) {
   for (long i = 0; i < n; ++i) z[i] = pow(x[i], y[i]);
 }
-double sign_lgamma(double x, int* sign) { return lgamma_r(x, sign); }
+double sign_lgamma(double x, int* sign) {
+  return lgamma_r(x, sign);
+}
 
 typedef double v2d __attribute__((vector_size(16)));
-v2d vector_sin(v2d x) { return (v2d){sin(x[0]), sin(x[1])}; }
+v2d vector_sin(v2d x) {
+  return (v2d){sin(x[0]), sin(x[1])};
+}
 /* A neighbour that is no number spoils both. */
 v2d vector_spoiled(v2d x) {
   const double bad = x[0] - x[0] + (x[1] - x[1]);
@@ -74,4 +84,16 @@ v2d vector_crash_at_one(v2d x) {
 }
 void vector_sincos(v2d x, double* s, double* c) {
   for (int i = 0; i < 2; ++i) sincos(x[i], s + i, c + i);
+}
+/* As the vector ABI's "vvv": pointers in vectors, of floats two for as many lanes. */
+typedef long v2l __attribute__((vector_size(16)));
+typedef float v4f __attribute__((vector_size(16)));
+void pointers_sincos(v2d x, v2l s, v2l c) {
+  for (int i = 0; i < 2; ++i) sincos(x[i], (double*)s[i], (double*)c[i]);
+}
+void pointers_sincosf(v4f x, v2l s, v2l t, v2l c, v2l d) {
+  for (int i = 0; i < 2; ++i) {
+    sincosf(x[i], (float*)s[i], (float*)c[i]);
+    sincosf(x[i + 2], (float*)t[i], (float*)d[i]);
+  }
 }
