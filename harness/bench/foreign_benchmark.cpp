@@ -2,7 +2,7 @@
 // `bare` is a round trip with nothing looked at, `held` what a run does, with part of each batch evaluated
 // twice.
 //
-//   foreign_benchmark --benchmark_filter=/8192
+//   foreign_benchmark --benchmark_filter=/32768
 #include <benchmark/benchmark.h>
 #include <dlfcn.h>
 
@@ -73,7 +73,7 @@ void held(benchmark::State& state, const char* symbol) {
   for (const char* symbol : {"sin", "tgamma"}) {
     const auto add = [&](const char* how, void (*run)(benchmark::State&, const char*)) {
       const std::string name = std::string(how) + "/" + symbol;
-      for (const std::int64_t batch : {256, 2048, 8192})
+      for (const std::int64_t batch : {256, 4096, 32768})
         benchmark::RegisterBenchmark(name.c_str(), run, symbol)->Arg(batch)->UseRealTime();
     };
     add("in_process", in_process);

@@ -64,6 +64,13 @@ bool is_nan(const unsigned char* value, char element) {
 #endif
 }
 
+// One behind the other, with none left out.
+bool side_by_side(std::span<const std::uint32_t> points) {
+  for (std::size_t slot = 1; slot < points.size(); ++slot)
+    if (points[slot] != points[0] + slot) return false;
+  return true;
+}
+
 std::vector<std::uint32_t> all_of(std::size_t count) {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
@@ -76,8 +83,14 @@ bool ForeignBatch::run() {
   const std::size_t count = troubles_.size();
   const std::size_t size = call_.size();
   std::vector<std::uint32_t> order = all_of(count);
-  evaluate_all(order, [&](std::uint32_t i, const unsigned char* value) {
-    std::memcpy(&values_[i * size], value, size);
+  evaluate_all(order, [&](Points points, const unsigned char* from, std::size_t stride) {
+    // The first pass is in order, and most functions have one result.
+    if (stride == size && side_by_side(points)) {
+      std::memcpy(&values_[points.front() * size], from, points.size() * size);
+      return;
+    }
+    for (std::size_t slot = 0; slot < points.size(); ++slot)
+      std::memcpy(&values_[points[slot] * size], from + slot * stride, size);
   });
   // What gave a value once more, in another order and in other lanes.
   std::erase_if(order, [&](std::uint32_t i) {
@@ -86,8 +99,9 @@ bool ForeignBatch::run() {
   std::ranges::reverse(order);
   if (call_.lanes() > 1 && order.size() > 1) std::ranges::rotate(order, order.begin() + 1);
   std::vector<std::uint32_t> differing;
-  evaluate_all(order, [&](std::uint32_t i, const unsigned char* value) {
-    if (!same(&values_[i * size], value)) differing.push_back(i);
+  evaluate_all(order, [&](Points points, const unsigned char* from, std::size_t stride) {
+    for (std::size_t slot = 0; slot < points.size(); ++slot)
+      if (!same(&values_[points[slot] * size], from + slot * stride)) differing.push_back(points[slot]);
   });
   look_at_lanes(order, differing);
   if (!differing.empty()) explain(differing);
@@ -102,6 +116,15 @@ bool ForeignBatch::same(const unsigned char* a, const unsigned char* b) const {
 void ForeignBatch::put_arguments(ulpgate_channel& c, std::size_t slot, std::uint32_t i) const {
   const std::size_t bytes = call_.arity() * call_.size();
   std::memcpy(c.arguments + slot * bytes, args_ + i * bytes, bytes);
+}
+
+void ForeignBatch::put_all_arguments(ulpgate_channel& c, Points points) const {
+  const std::size_t bytes = call_.arity() * call_.size();
+  if (side_by_side(points)) {
+    std::memcpy(c.arguments, args_ + points.front() * bytes, points.size() * bytes);
+    return;
+  }
+  for (std::size_t slot = 0; slot < points.size(); ++slot) put_arguments(c, slot, points[slot]);
 }
 
 void ForeignBatch::give_trouble(std::uint32_t i, Outcome o) {
@@ -122,10 +145,11 @@ void ForeignBatch::evaluate_all(Points points, const Take& take) {
 
 void ForeignBatch::take_answers(Points points, const WorkerProcess& worker, const Take& take) {
   const ulpgate_channel& c = worker.channel();
+  if (c.changed == 0) return take(points, call_.result(c, 0), call_.stride());
   std::vector<std::uint32_t> suspects;
   for (std::size_t slot = 0; slot < points.size(); ++slot) {
-    if (c.changed == 0 || c.changed_points[slot] == 0) {
-      take(points[slot], call_.result(c, slot));
+    if (c.changed_points[slot] == 0) {
+      take(points.subspan(slot, 1), call_.result(c, slot), call_.stride());
     } else {
       suspects.push_back(points[slot]);
     }
@@ -139,7 +163,7 @@ void ForeignBatch::evaluate(Points points, const Take& take, ulpgate_worker_mode
   while (!points.empty()) {
     WorkerProcess& worker = call_.worker();
     ulpgate_channel& c = worker.channel();
-    for (std::size_t slot = 0; slot < points.size(); ++slot) put_arguments(c, slot, points[slot]);
+    put_all_arguments(c, points);
     const WorkerEnd end = worker.request(static_cast<std::uint32_t>(points.size()), mode);
     if (end == WorkerEnd::answered && (c.changed == 0 || mode == ulpgate_worker_singly))
       return take_answers(points, worker, take);
@@ -164,7 +188,7 @@ void ForeignBatch::evaluate(Points points, const Take& take, ulpgate_worker_mode
       // Which of them left another environment went with the process.
       evaluate(points.first(at), take, mode);
     } else {
-      for (std::size_t slot = 0; slot < at; ++slot) take(points[slot], &done[slot * size]);
+      if (at > 0) take(points.first(at), done.data(), size);
     }
     const std::size_t group = std::min(call_.lanes(), points.size() - at);
     settle_group(points.subspan(at, group), take, outcome);
@@ -190,7 +214,7 @@ void ForeignBatch::settle_environment(std::uint32_t i, const Take& take) {
     return give_trouble(i, end == WorkerEnd::hung ? Outcome::hang : Outcome::crash);
   }
   if (worker.channel().changed != 0) return give_trouble(i, Outcome::environment);
-  take(i, call_.result(worker.channel(), 0));
+  take(Points(&i, 1), call_.result(worker.channel(), 0), call_.stride());
 }
 
 void ForeignBatch::look_at_lanes(Points order, std::vector<std::uint32_t>& differing) {
@@ -225,8 +249,11 @@ void ForeignBatch::explain(const std::vector<std::uint32_t>& differing) {
   std::erase_if(order, [&](std::uint32_t i) { return troubles_[i] != 0; });
   const bool same_company = order.size() == troubles_.size();
   std::vector<std::uint8_t> other(troubles_.size());
-  evaluate_all(order, [&](std::uint32_t i, const unsigned char* value) {
-    other[i] = same(&values_[i * call_.size()], value) ? 0 : 1;
+  evaluate_all(order, [&](Points points, const unsigned char* from, std::size_t stride) {
+    for (std::size_t slot = 0; slot < points.size(); ++slot) {
+      const auto i = points[slot];
+      other[i] = same(&values_[i * call_.size()], from + slot * stride) ? 0 : 1;
+    }
   });
   for (const auto i : differing) {
     const bool lanes = call_.lanes() > 1 && (other[i] == 0 || !same_company);

@@ -27,11 +27,12 @@ class ForeignBatch {
 
  private:
   using Points = std::span<const std::uint32_t>;
-  // Is given a point that has a value.
-  using Take = std::function<void(std::uint32_t, const unsigned char*)>;
+  // Is given points that have a value: that of the first, and the bytes from one to the next.
+  using Take = std::function<void(Points, const unsigned char* from, std::size_t stride)>;
 
   [[nodiscard]] bool same(const unsigned char* a, const unsigned char* b) const;
   void put_arguments(ulpgate_channel& c, std::size_t slot, std::uint32_t i) const;
+  void put_all_arguments(ulpgate_channel& c, Points points) const;
   void give_trouble(std::uint32_t i, Outcome o);
   // Of the points in this order.
   void evaluate_all(Points points, const Take& take);

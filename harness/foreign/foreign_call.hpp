@@ -33,11 +33,13 @@ class ForeignCall {
   [[nodiscard]] std::size_t size() const { return size_of(shape_.element); }
   [[nodiscard]] std::size_t arity() const { return static_cast<std::size_t>(shape_.arity); }
   [[nodiscard]] std::size_t lanes() const { return static_cast<std::size_t>(signature_.lanes); }
-  // Where a worker puts the result of a point.
+  // Where a worker puts the result of a point, and how far from there that of the next is.
   [[nodiscard]] const unsigned char* result(const ulpgate_channel& c, std::size_t slot) const {
-    const auto results = static_cast<std::size_t>(ulpgate_results_of(&signature_));
-    const auto which = results == 1 ? 0 : static_cast<std::size_t>(shape_.result);
-    return c.results + (results * slot + which) * size();
+    const auto which = ulpgate_results_of(&signature_) == 1 ? 0 : static_cast<std::size_t>(shape_.result);
+    return c.results + slot * stride() + which * size();
+  }
+  [[nodiscard]] std::size_t stride() const {
+    return static_cast<std::size_t>(ulpgate_results_of(&signature_)) * size();
   }
 
   // The worker of this thread, which keeps the few that it used last; started where there is none.

@@ -6,11 +6,11 @@
 #include <stdint.h>
 
 /* Raise it when anything below changes: a worker of another build is refused rather than misread. */
-enum { ulpgate_channel_version = 2, ulpgate_channel_magic = 0x55504757 };
+enum { ulpgate_channel_version = 3, ulpgate_channel_magic = 0x55504757 };
 /* The descriptor under which a worker finds the channel. */
 enum { ulpgate_channel_fd = 3 };
 /* The most points of a request, and values of the widest type that its arguments and its results may take. */
-enum { ulpgate_channel_points = 8192, ulpgate_channel_values = 3 * ulpgate_channel_points };
+enum { ulpgate_channel_points = 32768, ulpgate_channel_values = 3 * ulpgate_channel_points };
 
 enum ulpgate_worker_state {
   ulpgate_worker_starting = 0, /* nothing of the library has run */
