@@ -82,7 +82,10 @@ std::vector<std::uint32_t> all_of(std::size_t count) {
 bool ForeignBatch::run() {
   const std::size_t count = troubles_.size();
   const std::size_t size = call_.size();
-  std::vector<std::uint32_t> order = all_of(count);
+  // Kept by the thread: pages of a fresh one would cost more than the calls.
+  thread_local std::vector<std::uint32_t> order;
+  order.resize(count);
+  std::iota(order.begin(), order.end(), 0U);
   evaluate_all(order, [&](Points points, const unsigned char* from, std::size_t stride) {
     // The first pass is in order, and most functions have one result.
     if (stride == size && side_by_side(points)) {

@@ -14,14 +14,14 @@ namespace ulpgate {
 
 class ForeignBatch {
  public:
-  // `args` outlives it: `count` points of the call's arity and element.
-  ForeignBatch(const ForeignCall& call, const unsigned char* args, std::size_t count)
-      : call_(call), args_(args), values_(count * call.size()), troubles_(count) {}
+  // `args` and `values` outlive it: `count` points of the call's arity and element, and room for their
+  // values.
+  ForeignBatch(const ForeignCall& call, const unsigned char* args, unsigned char* values, std::size_t count)
+      : call_(call), args_(args), values_(values), troubles_(count) {}
 
   // Whether every point has a value, the same every time.  Throws ForeignHangs.
   [[nodiscard]] bool run();
 
-  [[nodiscard]] const std::vector<unsigned char>& values() const { return values_; }
   // Of each point 0, or which outcome from `exception` on, counted from 1.
   [[nodiscard]] const std::vector<std::uint8_t>& troubles() const { return troubles_; }
 
@@ -50,7 +50,7 @@ class ForeignBatch {
 
   const ForeignCall& call_;
   const unsigned char* args_;
-  std::vector<unsigned char> values_;
+  unsigned char* values_;
   std::vector<std::uint8_t> troubles_;
   int hangs_ = 0;
 };

@@ -99,14 +99,12 @@ void ForeignCode::note(const std::string& finding) const {
 
 void ForeignCode::evaluate(const void* args, void* results, std::uint8_t* threw, std::size_t count) const {
   const auto* bytes = static_cast<const unsigned char*>(args);
-  ForeignBatch batch(call_, bytes, count);
-  if (batch.run()) {
-    std::memcpy(results, batch.values().data(), batch.values().size());
-    return;
-  }
+  auto* values = static_cast<unsigned char*>(results);
+  ForeignBatch batch(call_, bytes, values, count);
+  if (batch.run()) return;
   // As a fresh process does it, which the next batch is not to see.
   call_.drop_worker();
-  ForeignBatch again(call_, bytes, count);
+  ForeignBatch again(call_, bytes, values, count);
   const bool clean = again.run();
   call_.drop_worker();
   if (clean) {
@@ -116,7 +114,6 @@ void ForeignCode::evaluate(const void* args, void* results, std::uint8_t* threw,
                      name_of(static_cast<Outcome>(static_cast<int>(Outcome::exception) + *first - 1)),
                      shown(call_, bytes + i * call_.arity() * call_.size())));
   }
-  std::memcpy(results, again.values().data(), again.values().size());
   std::ranges::copy(again.troubles(), threw);
 }
 
