@@ -8,8 +8,8 @@
 
 #include "harness/app/foreign/implementations.hpp"
 #include "harness/app/reading/json_fields.hpp"
-#include "harness/foreign/properties.hpp"
 #include "harness/core/verdict/verdict.hpp"
+#include "harness/foreign/properties.hpp"
 
 namespace ulpgate::app {
 

@@ -58,7 +58,8 @@ std::string to_json_line(const RowRecord& r) {
   for (std::size_t o = 1; o < outcome_count; ++o) {
     const std::string name(outcome_names[o]);
     // Of foreign functions alone, where there are any.
-    if (s.outcomes[o] > 0 || o <= static_cast<std::size_t>(Outcome::exception)) mismatch[name] = s.outcomes[o];
+    if (s.outcomes[o] > 0 || o <= static_cast<std::size_t>(Outcome::exception))
+      mismatch[name] = s.outcomes[o];
     if (s.outcomes[o] > 0) {
       first[name] = r.points.first_mismatch.at(static_cast<Outcome>(o));
       first_index[name] = s.first_index[o];

@@ -40,8 +40,9 @@ void add_report_command(CLI::App& app, Action& action) {
   auto* report = app.add_subcommand("report", "Make tables, figures and a page from records");
   auto o = std::make_shared<ReportOptions>();
   report
-      ->add_option("DIR", o->directories,
-                   "directory of the records; several: functions of libraries side by side, LABEL=DIR names one")
+      ->add_option(
+          "DIR", o->directories,
+          "directory of the records; several: functions of libraries side by side, LABEL=DIR names one")
       ->required();
   auto* out = report->add_option("--out", o->out, "directory of the report");
   report->add_flag("--print", o->print, "print the ULP table");

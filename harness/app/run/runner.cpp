@@ -16,9 +16,9 @@
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
-#include "harness/foreign/foreign_failure.hpp"
 #include "harness/core/judging/reference_disagreement.hpp"
 #include "harness/core/watch/heartbeat.hpp"
+#include "harness/foreign/foreign_failure.hpp"
 
 namespace ulpgate::app {
 
