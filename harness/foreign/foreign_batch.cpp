@@ -100,7 +100,7 @@ bool ForeignBatch::run() {
     return troubles_[i] != 0 || (count > whole_again && i % stride_again != 0);
   });
   std::ranges::reverse(order);
-  if (call_.lanes() > 1 && order.size() > 1) std::ranges::rotate(order, order.begin() + 1);
+  if (call_.lanes() > 1 && order.size() > 1) std::rotate(order.begin(), order.begin() + 1, order.end());
   std::vector<std::uint32_t> differing;
   evaluate_all(order, [&](Points points, const unsigned char* from, std::size_t stride) {
     for (std::size_t slot = 0; slot < points.size(); ++slot)

@@ -38,7 +38,6 @@ Shape shape_of(FunctionId id) {
     case sinh:
     case asinh:
     case cbrt:
-      return {Symmetry::odd, Trend::rising};
     case atanh:
       return {Symmetry::odd, Trend::rising};
     case cosh:
@@ -269,17 +268,11 @@ class Properties {
     switch (function_.id) {
       case exp:
       case cosh:
-        hold({0.0}, 1);
-        break;
       case cos:
-        hold({0.0}, 1);
-        break;
       case erfc:
         hold({0.0}, 1);
         break;
       case log:
-        hold({1.0}, 0);
-        break;
       case acos:
       case acosh:
         hold({1.0}, 0);

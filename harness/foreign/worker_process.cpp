@@ -93,6 +93,7 @@ std::vector<std::string> environment_with(const std::vector<std::string>& more) 
 
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> out;
+  out.reserve(words.size() + 1);
   for (auto& w : words) out.push_back(w.data());
   out.push_back(nullptr);
   return out;

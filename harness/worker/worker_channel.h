@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* NOLINTBEGIN(readability-identifier-naming): C */
+
 /* Raise it when anything below changes: a worker of another build is refused rather than misread. */
 enum { ulpgate_channel_version = 3, ulpgate_channel_magic = 0x55504757 };
 /* The descriptor under which a worker finds the channel. */
@@ -63,5 +65,7 @@ struct ulpgate_channel {
   unsigned char arguments[16 * ulpgate_channel_values] __attribute__((aligned(64)));
   unsigned char results[16 * ulpgate_channel_values] __attribute__((aligned(64)));
 };
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #endif

@@ -13,6 +13,8 @@
 
 #include <string.h>
 
+/* NOLINTBEGIN(readability-identifier-naming): C */
+
 enum ulpgate_shape {
   ulpgate_shape_value,     /* results are returned */
   ulpgate_shape_sign,      /* returned, with a pointer to an int behind the arguments */
@@ -111,5 +113,7 @@ static inline int ulpgate_parse_signature(const char* text, struct ulpgate_signa
   *out = s;
   return 1;
 }
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #endif

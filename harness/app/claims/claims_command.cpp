@@ -133,7 +133,7 @@ void write_program(const ListedFunction& row, const BoundFunction& bound, const 
 // With as many digits as tell it from the claim.
 std::string shown_error(double ulp, double claim) {
   if (ulp < 0) return "-";
-  const std::string text = fmt::format("{:.6g}", ulp);
+  std::string text = fmt::format("{:.6g}", ulp);
   if (ulp <= claim || ulp > 1.00001 * claim) return text;
   return fmt::format("{:g}+{:.1g}", claim, ulp - claim);
 }

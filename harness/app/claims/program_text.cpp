@@ -86,6 +86,7 @@ std::string program_text(const ListedFunction& row, const BoundFunction& bound,
                            : library == "-"                       ? ""
                                                                   : "-l:" + library;
   std::vector<std::string> literals;
+  literals.reserve(args.size());
   for (const auto& a : args) literals.push_back(literal_of(a, bound.element));
   std::string declaration;
   std::string call;
@@ -103,6 +104,7 @@ std::string program_text(const ListedFunction& row, const BoundFunction& bound,
     declaration = fmt::format("typedef {} {} __attribute__((vector_size({})));\n{} {}({});\n", type, vector,
                               s.lanes * (bound.element == 'f' ? 4 : 8), vector, name, fmt::join(kinds, ", "));
     std::vector<std::string> vectors;
+    vectors.reserve(literals.size());
     // The same argument in every lane.
     for (const auto& a : literals)
       vectors.push_back(

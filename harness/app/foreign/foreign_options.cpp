@@ -105,9 +105,9 @@ BoundFunction bind_listed(const ListedFunction& row) {
   Bound b{nullptr, std::move(code), nullptr};
   if (row.claim.limit()) b.claimed = make_claimed_code(*b.code, f, element, row.claim);
   const BatchCode& used = b.claimed != nullptr ? *b.claimed : static_cast<const BatchCode&>(*b.code);
-  auto subject = original.with_code(used, std::move(names));
+  auto subject = original.with_code(used, names);
   b.subject = subject.get();
-  const BoundFunction result{subject.get(), &used, element, facts};
+  BoundFunction result{subject.get(), &used, element, facts};
   bound().push_back(std::move(b));
   replace_subject(std::move(subject));
   return result;

@@ -47,14 +47,15 @@ class FunctionSubject final : public Subject {
 
   [[nodiscard]] BatchFunction<Real> call() const { return call_; }
 
-  [[nodiscard]] std::unique_ptr<Subject> with_code(const BatchCode& code, CodeNames names) const override {
+  [[nodiscard]] std::unique_ptr<Subject> with_code(const BatchCode& code,
+                                                   const CodeNames& names) const override {
     // Of other types the bytes are no value that another process could know.
     if constexpr (NativeReal<Real> || Float128Backed<Real>) {
       SubjectInfo info = this->info();
-      info.implementation = std::move(names.implementation);
+      info.implementation = names.implementation;
       info.claimed_ulp = names.claimed_ulp;
-      info.selection = std::move(names.selection);
-      info.code_facts = std::move(names.facts);
+      info.selection = names.selection;
+      info.code_facts = names.facts;
       return std::make_unique<FunctionSubject>(type(), function_, std::move(info), code, family_);
     } else {
       return nullptr;

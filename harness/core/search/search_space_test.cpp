@@ -170,6 +170,7 @@ std::vector<double> ranked_cluster(BatchFunction<double> call, double from) {
   const FunctionTarget<double, NoWideType> target(named("sqrt"), call);
   const Positions<double> positions(-1074);
   std::vector<SearchPoint<__int128>> points;
+  points.reserve(64);
   for (int i = 0; i < 64; ++i) points.push_back({positions.of(from) + __int128{987654321} * i});
   std::vector<double> errors(points.size());
   target.rank(points, errors);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 namespace ulpgate {
 
@@ -37,8 +36,12 @@ const Subject* find_subject(std::string_view name, std::string_view type_token) 
     for (const auto& s : all_subjects()) map[{s->name(), s->type().token}] = s.get();
     return map;
   }();
-  for (const auto& s : std::views::reverse(replacements()))
-    if (s->name() == name && s->type().token == type_token) return s.get();
+  // The last that was put in its place.
+  const auto& replaced = replacements();
+  const auto newest = std::find_if(replaced.rbegin(), replaced.rend(), [&](const auto& s) {
+    return s->name() == name && s->type().token == type_token;
+  });
+  if (newest != replaced.rend()) return newest->get();
   const auto it = by_name.find({name, type_token});
   return it == by_name.end() ? nullptr : it->second;
 }

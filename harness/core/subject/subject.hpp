@@ -107,7 +107,7 @@ class Subject {
 
   // The same subject with other code behind it, which is made for this type; null where it takes none.
   [[nodiscard]] virtual std::unique_ptr<Subject> with_code(const BatchCode& /*code*/,
-                                                           CodeNames /*names*/) const {
+                                                           const CodeNames& /*names*/) const {
     return nullptr;
   }
 

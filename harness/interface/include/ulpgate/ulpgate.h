@@ -17,6 +17,8 @@
 #define ULPGATE_API
 #endif
 
+/* NOLINTBEGIN(readability-identifier-naming): C */
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -163,4 +165,6 @@ ULPGATE_API int ulpgate_kernel_main(int argc, char** argv, const struct ulpgate_
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(readability-identifier-naming) */
+
 #endif
