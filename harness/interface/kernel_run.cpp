@@ -126,6 +126,7 @@ std::vector<PartRow> rows_of(const ulpgate_kernel& kernel, const Points& points)
   const std::vector<Real> results = results_of<Real>(kernel, points.values);
   WideKernel wide(kernel);
   std::vector<PartRow> rows;
+  rows.reserve(parts);
   for (int part = 0; part < kernel.results; ++part)
     rows.push_back({points.stratum, part, 0, -1, 0, {}, {}, {}});
   for (std::size_t i = 0; i * arguments < points.values.size(); ++i) {
