@@ -125,7 +125,7 @@ class Positions {
       mpz_inits(z, part, nullptr);
       for (int i = 0; significand != 0; ++i) {
         mpz_set_ui(part, static_cast<unsigned long>(significand & ~std::uint64_t{0}));
-        mpz_mul_2exp(part, part, static_cast<mp_bitcnt_t>(64 * i));
+        mpz_mul_2exp(part, part, mp_bitcnt_t{64} * static_cast<mp_bitcnt_t>(i));
         mpz_add(z, z, part);
         significand >>= 64;
       }
