@@ -14,7 +14,6 @@ from ulpgate_report.tables import table_csv, table_latex, table_markdown
 from ulpgate_report.work_precision import kind as kind_work_precision
 
 KINDS = (
-    kind_libraries,
     kind_math,
     kind_kernels,
     kind_pendulum,
@@ -23,6 +22,7 @@ KINDS = (
     kind_stability,
     kind_work_precision,
     kind_history,
+    kind_libraries,
 )
 _FORMATS = {
     "csv": table_csv.render,

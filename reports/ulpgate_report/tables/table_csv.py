@@ -26,17 +26,23 @@ def _plain(value, kind):
     return str(value)
 
 
-def _names_the_row(index, column):
-    return index == 0 or column.kind in ("text", "code")
+def _is_plain(table, index):
+    """Whether a column's values bear no marks: the names of rows."""
+    values = (row[index] for row in table.rows)
+    return index == 0 or any(
+        value is not None and not isinstance(value, (Marked, Judged))
+        for value in values
+    )
 
 
 def render(table):
     """The whole file."""
     split = _mark_name(table)
     header = []
+    plain = [_is_plain(table, index) for index in range(len(table.columns))]
     for index, column in enumerate(table.columns):
         header.append(column.name)
-        if split and not _names_the_row(index, column):
+        if split and not plain[index]:
             header.append(f"{column.name}_{split}")
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
@@ -44,7 +50,7 @@ def render(table):
     for row in table.rows:
         line = []
         for index, (value, column) in enumerate(zip(row, table.columns)):
-            if split and not _names_the_row(index, column):
+            if split and not plain[index]:
                 marked = value or Marked(None, "")
                 line += [_plain(marked.value, column.kind), marked.mark_value]
             else:
