@@ -184,8 +184,10 @@ Verdict run_claims(const ClaimsOptions& o) {
     if (bound.subject == nullptr) continue;
     ClaimFound found = held_or_ended(row, bound, o);
     write_program(row, bound, o, found);
-    const std::string group =
+    // Of one domain, whose arguments are the same.
+    std::string group =
         fmt::format("{} {} {} {}", row.spec.library, row.function, row.type, *row.spec.claimed_ulp);
+    for (const auto& [low, high] : row.claim.domain) group += fmt::format(" [{}, {}]", low, high);
     std::string variant;
     if (const auto it = variants.find(group); it != variants.end()) {
       variant = difference_from(it->second, *found.sample);

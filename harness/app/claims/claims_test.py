@@ -149,6 +149,14 @@ def test_vectors_and_variants(tmp_path, library):
     assert shown(found[1]["program"])[0] == 1
 
 
+def test_other_domains_are_no_variants(tmp_path, library):
+    rows = row("off_sin", 5, "domain = [-1e6, 0]") + row(
+        "off_sin", 5, "domain = [0, 1e6]"
+    )
+    code, _, err, found = claims(tmp_path, library, rows)
+    assert code == 0 and [f["variant"] for f in found] == ["", ""], err
+
+
 def test_a_function_without_an_end_leaves_the_others_measured(tmp_path, library):
     rows = row("endless", 1) + row("off_sin", 5, NEAR)
     code, text, err, found = claims(
