@@ -120,7 +120,7 @@ void write_program(const ListedFunction& row, const BoundFunction& bound, const 
                    ClaimFound& found) {
   if (!found.violates(*row.spec.claimed_ulp)) return;
   const bool by_error = found.largest_ulp > *row.spec.claimed_ulp * (1 + ClaimFound::negligible);
-  const auto& args = by_error ? found.args : found.mismatches.front().args;
+  const auto& args = by_error ? found.args : found.first_beyond(*row.spec.claimed_ulp)->args;
   if (args.empty()) return;
   const std::string text = program_text(row, bound, args);
   if (text.empty()) return;
@@ -162,7 +162,7 @@ ClaimFound held_or_ended(const ListedFunction& row, const BoundFunction& bound, 
     fmt::print(stderr, "ulpgate: {}\n", e.what());
     ClaimFound found;
     found.implementation = bound.subject->info().implementation;
-    found.mismatches.push_back({e.what(), 1, {}});
+    found.mismatches.push_back({e.what(), 1, {}, std::numeric_limits<double>::infinity()});
     found.sample = SampledResults{};
     return found;
   }

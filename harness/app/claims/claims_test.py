@@ -37,6 +37,10 @@ double endless(double x) {
   for (volatile int spin = 1; spin;) continue;
   return x;
 }
+/* Zero for the smallest numbers, which is off by a unit; and a zero of the wrong sign, by which no unit is meant. */
+double flat_sinh(double x) { return fabs(x) <= 0x1p-1074 ? 0 * x : sinh(x); }
+double plus_sinh(double x) { return x == 0 ? 0 : sinh(x); }
+double wide_exp(double x) { return x > 709 ? 1 / 0.0 : exp(x); }
 double rough_cos(double x) { return x == 0 ? 1 - 0x1p-53 : cos(x); }
 """
 
@@ -147,6 +151,22 @@ def test_vectors_and_variants(tmp_path, library):
         found[1]["largest_ulp"] == found[0]["largest_ulp"] and found[1]["variant"] == ""
     )
     assert shown(found[1]["program"])[0] == 1
+
+
+def test_results_that_are_no_number_of_units(tmp_path, library):
+    rows = row("flat_sinh", 2, function="sinh")
+    rows += row("plus_sinh", 2, function="sinh")
+    rows += row("wide_exp", 2, function="exp")
+    code, _, err, (flat, plus, wide) = claims(tmp_path, library, rows)
+    assert code == 1, err
+    # It is said, and is within the claim.
+    assert [m["outcome"] for m in flat["mismatches"]] == ["underflow_spurious"]
+    assert flat["holds"] and flat["program"] == ""
+    assert [m["outcome"] for m in plus["mismatches"]] == ["zero_sign"]
+    assert [m["outcome"] for m in wide["mismatches"]] == ["overflow_spurious"]
+    for found in (plus, wide):
+        code, text = shown(found["program"])
+        assert not found["holds"] and code == 1 and "inf ULP" in text
 
 
 def test_other_domains_are_no_variants(tmp_path, library):

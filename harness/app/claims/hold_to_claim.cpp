@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -15,6 +16,7 @@
 #include "harness/app/shell/selection.hpp"
 #include "harness/core/search/function_search.hpp"
 #include "reference/functions/function_info.hpp"
+#include "reference/oracle/oracle.hpp"
 
 namespace ulpgate::app {
 
@@ -22,6 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr const char* search_file = "search.json";
+constexpr double beyond_any = std::numeric_limits<double>::infinity();
 
 std::filesystem::path path_of(const ListedFunction& row, const ClaimOptions& o) {
   return std::filesystem::path(o.out) / directory_of(row);
@@ -46,9 +49,33 @@ void add_records(const std::vector<RowRecord>& records, ClaimFound& found) {
       if (it != found.mismatches.end()) {
         it->count += r.summary.outcomes[i];
       } else {
-        found.mismatches.push_back({std::string(outcome_names[i]), r.summary.outcomes[i], args});
+        found.mismatches.push_back({std::string(outcome_names[i]), r.summary.outcomes[i], args, beyond_any});
       }
     }
+  }
+}
+
+// What a zero for the exact value at these arguments errs by, in units of the smallest number.
+double error_of_zero(const FunctionInfo& f, const RealDescriptor& type,
+                     const std::vector<std::string>& args) {
+  const WideExponentRange wide;
+  std::vector<MpfrValue> x;
+  for (const auto& a : args) {
+    x.emplace_back(type.format.precision);
+    mpfr_set_str(x.back().get(), a.c_str(), 0, MPFR_RNDN);
+  }
+  std::vector<MpfrValue> y;
+  y.emplace_back(type.reference_bits);
+  exact_value(f, x, y);
+  mpfr_mul_2si(y.front().get(), y.front(), type.format.precision - 1 - type.format.exponent_min, MPFR_RNDN);
+  return std::fabs(mpfr_get_d(y.front(), MPFR_RNDN));
+}
+
+void size_mismatches(const FunctionInfo& f, const Subject& subject, ClaimFound& found) {
+  for (auto& m : found.mismatches) {
+    if (m.outcome == name_of(Outcome::lane_dependent)) m.error_ulp = 0;
+    if (m.outcome == name_of(Outcome::underflow_spurious))
+      m.error_ulp = error_of_zero(f, subject.type(), m.args);
   }
 }
 
@@ -122,7 +149,7 @@ void search_worst(const ListedFunction& row, const Subject& subject, const Claim
     const auto outcome = m.at("outcome").get<std::string>();
     if (std::ranges::find(found.mismatches, outcome, &ClaimFound::Mismatch::outcome) ==
         found.mismatches.end())
-      found.mismatches.push_back({outcome, m.at("count"), m.at("args")});
+      found.mismatches.push_back({outcome, m.at("count"), m.at("args"), beyond_any});
   }
 }
 
@@ -144,6 +171,7 @@ ClaimFound hold_to_claim(const ListedFunction& row, const BoundFunction& bound, 
   found.implementation = bound.subject->info().implementation;
   measure_strata(row, o, found);
   search_worst(row, *bound.subject, o, found);
+  size_mismatches(f, *bound.subject, found);
   found.properties = broken_properties(*bound.code, f, bound.element, row.claim, o.seed);
   found.sample = sampled_results(*bound.code, f, bound.element, row.claim, o.seed);
   found.seconds = std::chrono::duration<double>(Clock::now() - start).count();

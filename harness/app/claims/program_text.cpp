@@ -57,7 +57,9 @@ Parts parts_of(const FunctionInfo& f, const RealDescriptor& type, const std::vec
   MpfrValue short_rest(53);
   mpfr_set(short_rest.get(), rest, MPFR_RNDN);
   const bool number = mpfr_number_p(y.front().get()) != 0;
-  return {literal(nearest), number ? literal(short_rest) + "L" : "0", literal(ulp) + "L",
+  // Beyond the largest number nothing is left to say of the rest.
+  const bool has_rest = number && mpfr_number_p(short_rest.get()) != 0;
+  return {literal(nearest), has_rest ? literal(short_rest) + "L" : "0", literal(ulp) + "L",
           text("%.40Rg", y.front())};
 }
 
@@ -119,7 +121,7 @@ std::string program_text(const ListedFunction& row, const BoundFunction& bound,
   const std::string floor = row.claim.floor > 0 ? fmt::format("{}", row.claim.floor) : "0.0";
   return fmt::format(
       "/* {name} of {path}{id}: {function} is claimed to err by at most {claim} ULP{floor_words}.\n"
-      " *   cc -O0{flags} FILE.c {link} -lm && ./a.out\n"
+      " *   cc -O0 -fno-builtin{flags} FILE.c {link} -lm && ./a.out\n"
       " * exits with 1 where it errs by more.  The exact value is {decimal}. */\n"
       "#include <math.h>\n"
       "#include <stdio.h>\n\n"
@@ -131,7 +133,9 @@ std::string program_text(const ListedFunction& row, const BoundFunction& bound,
       "  const long double ulp = {ulp};\n"
       "  const long double steps = (long double)got - nearest;\n"
       "  const int numbers = isfinite(got) && isfinite(nearest);\n"
-      "  const long double error = numbers ? fabsl(steps - rest)\n"
+      "  const int other_zero = got == 0 && nearest == 0 && signbit(got) != signbit(nearest);\n"
+      "  const long double error = other_zero ? INFINITY\n"
+      "                            : numbers ? fabsl(steps - rest)\n"
       "                            : got == nearest || (isnan(got) && isnan(nearest)) ? 0 : INFINITY;\n"
       "  /* The first difference is exact: what the rest adds is not lost in it. */\n"
       "  const long double above = numbers && steps != 0 ? (fabsl(steps) - {claim}L * ulp) - (steps > 0 ? "
