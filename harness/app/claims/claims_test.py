@@ -39,6 +39,7 @@ double endless(double x) {
 }
 /* Zero for the smallest numbers, which is off by a unit; and a zero of the wrong sign, by which no unit is meant. */
 double flat_sinh(double x) { return fabs(x) <= 0x1p-1074 ? 0 * x : sinh(x); }
+double flat_asinh(double x) { return fabs(x) <= 0x1p-1074 && x != 0 ? 0 : asinh(x); }
 double plus_sinh(double x) { return x == 0 ? 0 : sinh(x); }
 double wide_exp(double x) { return x > 709 ? 1 / 0.0 : exp(x); }
 double rough_cos(double x) { return x == 0 ? 1 - 0x1p-53 : cos(x); }
@@ -157,11 +158,14 @@ def test_results_that_are_no_number_of_units(tmp_path, library):
     rows = row("flat_sinh", 2, function="sinh")
     rows += row("plus_sinh", 2, function="sinh")
     rows += row("wide_exp", 2, function="exp")
-    code, _, err, (flat, plus, wide) = claims(tmp_path, library, rows)
+    rows += row("flat_asinh", 2, function="asinh")
+    code, _, err, (flat, plus, wide, flat_of_plus) = claims(tmp_path, library, rows)
     assert code == 1, err
     # It is said, and is within the claim.
     assert [m["outcome"] for m in flat["mismatches"]] == ["underflow_spurious"]
     assert flat["holds"] and flat["program"] == ""
+    assert [m["outcome"] for m in flat_of_plus["mismatches"]] == ["zero_sign"]
+    assert flat_of_plus["holds"] and flat_of_plus["program"] == ""
     assert [m["outcome"] for m in plus["mismatches"]] == ["zero_sign"]
     assert [m["outcome"] for m in wide["mismatches"]] == ["overflow_spurious"]
     for found in (plus, wide):

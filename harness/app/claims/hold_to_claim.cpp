@@ -74,8 +74,11 @@ double error_of_zero(const FunctionInfo& f, const RealDescriptor& type,
 void size_mismatches(const FunctionInfo& f, const Subject& subject, ClaimFound& found) {
   for (auto& m : found.mismatches) {
     if (m.outcome == name_of(Outcome::lane_dependent)) m.error_ulp = 0;
-    if (m.outcome == name_of(Outcome::underflow_spurious))
-      m.error_ulp = error_of_zero(f, subject.type(), m.args);
+    if (m.outcome != name_of(Outcome::underflow_spurious) && m.outcome != name_of(Outcome::zero_sign))
+      continue;
+    // The sign of a zero that stands for a number is part of its error; that of an exact zero is no number of
+    // units.
+    if (const double error = error_of_zero(f, subject.type(), m.args); error > 0) m.error_ulp = error;
   }
 }
 
