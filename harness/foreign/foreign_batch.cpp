@@ -96,9 +96,10 @@ bool ForeignBatch::run() {
       std::memcpy(&values_[points[slot] * size], from + slot * stride, size);
   });
   // What gave a value once more, in another order and in other lanes.
-  std::erase_if(order, [&](std::uint32_t i) {
-    return troubles_[i] != 0 || (count > whole_again && i % stride_again != 0);
-  });
+  const std::size_t stride = count > whole_again ? stride_again : 1;
+  order.clear();
+  for (std::size_t i = 0; i < count; i += stride)
+    if (troubles_[i] == 0) order.push_back(static_cast<std::uint32_t>(i));
   std::ranges::reverse(order);
   if (call_.lanes() > 1 && order.size() > 1) std::rotate(order.begin(), order.begin() + 1, order.end());
   std::vector<std::uint32_t> differing;

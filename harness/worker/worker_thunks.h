@@ -63,8 +63,13 @@ SCALAR_THUNK(scalar_q, __float128)
       V x[3] = {{0}};                                                                                       \
       V y;                                                                                                  \
       const uint32_t n = last - i < LANES ? last - i : LANES;                                               \
-      for (uint32_t j = 0; j < arity; ++j)                                                                  \
-        for (uint32_t k = 0; k < LANES; ++k) x[j][k] = a[arity * (i + (k < n ? k : n - 1)) + j];            \
+      if (arity == 1 && n == LANES) {                                                                       \
+        /* Lane by lane it would take as long as a fast function. */                                        \
+        memcpy(&x[0], a + i, sizeof(V));                                                                    \
+      } else {                                                                                              \
+        for (uint32_t j = 0; j < arity; ++j)                                                                \
+          for (uint32_t k = 0; k < LANES; ++k) x[j][k] = a[arity * (i + (k < n ? k : n - 1)) + j];          \
+      }                                                                                                     \
       if (s->shape == ulpgate_shape_pair) {                                                                 \
         T sine[LANES];                                                                                      \
         T cosine[LANES];                                                                                    \
@@ -99,7 +104,7 @@ SCALAR_THUNK(scalar_q, __float128)
       } else {                                                                                              \
         y = ((V(*)(V, V, V))f)(x[0], x[1], x[2]);                                                           \
       }                                                                                                     \
-      for (uint32_t k = 0; k < n; ++k) r[i + k] = y[k];                                                     \
+      memcpy(r + i, &y, n * sizeof(T));                                                                     \
     }                                                                                                       \
   }
 

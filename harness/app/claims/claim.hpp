@@ -72,6 +72,11 @@ struct ClaimFound {
 [[nodiscard]] std::string program_text(const ListedFunction& row, const BoundFunction& bound,
                                        const std::vector<std::string>& args);
 
+// The exact value of a real function at arguments in hexadecimal, to the bits of the type's reference.
+// Whoever does arithmetic with it stays in a WideExponentRange: it may lie beyond the range of the type.
+[[nodiscard]] MpfrValue exact_at(const FunctionInfo& f, const RealDescriptor& type,
+                                 const std::vector<std::string>& args);
+
 // The lists that are built in.
 struct BuiltinClaims {
   std::string name;

@@ -28,6 +28,23 @@ double floor_sin(double x) { return fabs(x) < 1e-300 ? 0 * x : sin(x); }
 __attribute__((target("avx2"))) v4d off_sin4(v4d x) {
   return (v4d){off_sin(x[0]), off_sin(x[1]), off_sin(x[2]), off_sin(x[3])};
 }
+/* Two results: by pointers, by pointers of a vector, and by vectors of pointers as the vector ABI has it. */
+typedef double v2d __attribute__((vector_size(16)));
+typedef float v4f __attribute__((vector_size(16)));
+typedef unsigned long v2l __attribute__((vector_size(16)));
+void off_sincos(double x, double* s, double* c) { *s = off_sin(x); *c = cos(x) + (x < 1 ? 3 * 0x1p-53 : 0); }
+void off_sincos2(v2d x, double* s, double* c) {
+  for (int i = 0; i < 2; ++i) off_sincos(x[i], s + i, c + i);
+}
+void off_pointers(v2d x, v2l s, v2l c) {
+  for (int i = 0; i < 2; ++i) off_sincos(x[i], (double*)s[i], (double*)c[i]);
+}
+void off_pointersf(v4f x, v2l s, v2l t, v2l c, v2l d) {
+  for (int i = 0; i < 4; ++i) {
+    *(float*)(i < 2 ? s[i] : t[i - 2]) = sinf(x[i]) + (x[i] < 1 ? 3 * 0x1p-24f : 0);
+    *(float*)(i < 2 ? c[i] : d[i - 2]) = cosf(x[i]) + (x[i] < 1 ? 3 * 0x1p-24f : 0);
+  }
+}
 /* Neither odd nor within [-1, 1], and every second number of (3, 3.5) is lower than its neighbours. */
 double rough_tanh(double x) {
   const double y = tanh(x);
@@ -152,6 +169,27 @@ def test_vectors_and_variants(tmp_path, library):
         found[1]["largest_ulp"] == found[0]["largest_ulp"] and found[1]["variant"] == ""
     )
     assert shown(found[1]["program"])[0] == 1
+
+
+@pytest.mark.parametrize("function", ["sin", "cos"])
+def test_two_results(tmp_path, library, function):
+    domain = "domain = [0.25, 2]\n"
+    rows = ""
+    for symbol, signature in (
+        ("off_sincos", "void(d,d*,d*)"),
+        ("off_sincos2", "void(v2d,d*,d*)"),
+        ("off_pointers", "void(v2d,v2d*,v2d*)"),
+        ("off_pointersf", "void(v4f,v4f*,v4f*)"),
+    ):
+        more = domain + f'signature = "{signature}"'
+        one = row(symbol, 2, more, function=function)
+        rows += one.replace("double", "float") if symbol == "off_pointersf" else one
+    code, _, _, found = claims(tmp_path, library, rows)
+    assert code == 1 and len(found) == 4
+    for f in found:
+        assert f["largest_ulp"] > 2 and not f["mismatches"]
+        code, words = shown(f["program"])
+        assert code == 1 and f["symbol"] in words
 
 
 def test_results_that_are_no_number_of_units(tmp_path, library):

@@ -16,7 +16,6 @@
 #include "harness/app/shell/selection.hpp"
 #include "harness/core/search/function_search.hpp"
 #include "reference/functions/function_info.hpp"
-#include "reference/oracle/oracle.hpp"
 
 namespace ulpgate::app {
 
@@ -59,16 +58,9 @@ void add_records(const std::vector<RowRecord>& records, ClaimFound& found) {
 double error_of_zero(const FunctionInfo& f, const RealDescriptor& type,
                      const std::vector<std::string>& args) {
   const WideExponentRange wide;
-  std::vector<MpfrValue> x;
-  for (const auto& a : args) {
-    x.emplace_back(type.format.precision);
-    mpfr_set_str(x.back().get(), a.c_str(), 0, MPFR_RNDN);
-  }
-  std::vector<MpfrValue> y;
-  y.emplace_back(type.reference_bits);
-  exact_value(f, x, y);
-  mpfr_mul_2si(y.front().get(), y.front(), type.format.precision - 1 - type.format.exponent_min, MPFR_RNDN);
-  return std::fabs(mpfr_get_d(y.front(), MPFR_RNDN));
+  MpfrValue y = exact_at(f, type, args);
+  mpfr_mul_2si(y.get(), y, type.format.precision - 1 - type.format.exponent_min, MPFR_RNDN);
+  return std::fabs(mpfr_get_d(y, MPFR_RNDN));
 }
 
 void size_mismatches(const FunctionInfo& f, const Subject& subject, ClaimFound& found) {

@@ -66,3 +66,26 @@ def test_libraries_side_by_side(tmp_path):
         env=os.environ | {"ULPGATE": ULPGATE},
     )
     assert done.returncode == 3 and "--samples" in done.stderr
+
+
+def test_a_run_that_was_stopped_is_not_reported_as_all(tmp_path):
+    # Stands for a program that is interrupted in its second run: what it wrote before is there.
+    program = tmp_path / "ulpgate"
+    program.write_text(
+        """#!/bin/sh
+while [ "$1" != --out ]; do shift; done
+mkdir -p "$2" && touch "$2/context.json"
+echo "$2" >>"$(dirname "$0")/runs"
+[ "$(wc -l <"$(dirname "$0")/runs")" -lt 2 ] || exit 3
+"""
+    )
+    program.chmod(0o755)
+    done = subprocess.run(
+        [ROOT / "scripts/libraries", tmp_path / "out"],
+        capture_output=True,
+        text=True,
+        env=os.environ | {"ULPGATE": str(program)},
+    )
+    assert done.returncode == 3 and "left out" not in done.stderr
+    assert len((tmp_path / "runs").read_text().splitlines()) == 2
+    assert not (tmp_path / "out/report").exists()

@@ -106,7 +106,7 @@ TYPED_TEST(CorrectRounding, IsOffByHalfAnUlpAtMost) {
         EXPECT_EQ(j.distance, 0) << row.at(i);
       }
     }
-    RowHint hint(row.f.parts);
+    RowHint hint(static_cast<std::size_t>(row.f.parts));
     RowTally<Real> full(row.f, hint);
     FullJudging<Real>(row.f).judge(batch, full);
     RowTally<Real> screened(row.f, hint);

@@ -54,7 +54,7 @@ Summary judge_one(const Case& c, std::uint64_t index) {
   const FunctionInfo& f = info_of(c.id);
   std::vector<double> results(static_cast<std::size_t>(f.parts), c.got);
   const std::uint8_t threw = 0;
-  RowHint hint(f.parts);
+  RowHint hint(static_cast<std::size_t>(f.parts));
   RowTally<double> tally(f, hint);
   Judging judging(f);
   judging.judge(Batch<double>{f, c.args, results, {&threw, 1}, index}, tally);

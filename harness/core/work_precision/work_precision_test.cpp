@@ -49,7 +49,7 @@ TEST(WorkPrecisionRow, AnOutcomeSurvivesItsText) {
 TEST(WorkPrecisionRow, KeysTellSettingsApart) {
   std::set<std::string> keys;
   for (const auto* type : {"float", "double"}) {
-    for (const std::uint64_t steps : {64, 128}) {
+    for (const std::uint64_t steps : {64U, 128U}) {
       for (const auto* end : {"1", "2"})
         keys.insert(
             WorkSetting{WorkSubject::trajectory, "kepler", type, "leapfrog", end, "", steps, 0}.key());
