@@ -3,7 +3,6 @@
 #include "harness/core/judging/ordinary_scan.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <limits>
 
