@@ -20,7 +20,7 @@ from program import ROOT, ULPGATE  # noqa: E402
 SLOW = "ULPGATE_SANITIZED" in os.environ
 
 # Until a process has its first unit.
-START_S = 0.5 if SLOW else 0.1
+START_S = 2.0 if SLOW else 0.1
 
 SIZE = ["--functions", "sin,pow,lgamma,csqrt", "--types", "double,mpfr62"]
 SIZE += ["--samples", "4000" if SLOW else "80000", "--strata", "uniform,binades,hard"]
