@@ -39,6 +39,8 @@ def test_page_stands_alone(report):
     assert "@import" not in text and "url(http" not in text
     assert "<?xml" not in text
     expected = [
+        "type_table",
+        "worst_table",
         "ulp_matrix",
         "paper_table",
         "ulp_table",

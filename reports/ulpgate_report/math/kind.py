@@ -12,6 +12,8 @@ from ulpgate_report.values import numbers
 
 # What is tabled, and in which formats; a table has the name of its function.
 TABLES = (
+    (tables.type_table, ("tex", "md", "csv")),
+    (tables.worst_table, ("md", "csv")),
     (tables.paper_table, ("tex", "md", "csv")),
     (tables.ulp_matrix, ("tex", "md", "csv")),
     (tables.ulp_table, ("tex", "md", "csv")),
@@ -43,16 +45,25 @@ def printed(combined):
 def headline(combined):
     """What stands above everything."""
     cells = combined.cells.values()
-    mismatches = sum(cell.mismatches for cell in cells)
-    disagreed = sum(cell.oracle_disagreed for cell in cells)
     compared = sum(cell.oracle_compared for cell in cells)
-    return [
-        (f"{sum(cell.samples for cell in cells):,} samples,", False),
-        (f"{mismatches:,}" if mismatches else "none", bool(mismatches)),
-        (f"of the wrong kind; oracles compared on {compared:,} samples,", False),
-        (f"{disagreed:,}" if disagreed else "none", bool(disagreed)),
-        ("disagreed.", False),
-    ]
+    disagreed = sum(cell.oracle_disagreed for cell in cells)
+    judged = [c for c in combined.cells.items() if c[1].max_ulp is not None]
+    types = len(combined.type_tokens)
+    said = (
+        f"{len({row.function for row in combined.rows}):,} functions in {types} type{'s' * (types != 1)}, "
+        f"{sum(cell.samples for cell in cells):,} samples."
+    )
+    if judged:
+        (row, token), cell = max(judged, key=lambda one: one[1].max_ulp)
+        correct = sum(cell.max_ulp <= 0.5 for _, cell in judged)
+        faithful = sum(cell.max_ulp <= 1 for _, cell in judged)
+        said += (
+            f" Of {len(judged):,} rows {correct:,} are rounded correctly everywhere and {faithful:,} err by at most 1 ULP; "
+            f"the largest error is {numbers.short_ulp(cell.max_ulp)} ULP, of {row.label} in {token}."
+        )
+    said += f" Two references were compared on {compared:,} results"
+    said += f" and differ on {disagreed:,}." if disagreed else " and agree."
+    return [(said, False)]
 
 
 def _hover(row, token, cell):
@@ -75,6 +86,10 @@ def _heat_view(combined):
         lambda cell: cell[2].max_ulp,
         lambda cell: _hover(*cell),
         heat_colours.ULP,
+        command=lambda cell: tables.command_of(cell[0], cell[1], cell[2].argmax)
+        if cell[2].argmax
+        else None,
+        row=lambda cell: cell[0].label,
     )
 
 
@@ -103,6 +118,12 @@ def sections(combined, drawn):
         untimed = "No function was both timed and measured on the strata uniform and stratified."
     view = page_views.table_view
     return [
+        page_views.section(
+            "glance",
+            "At a glance",
+            page_views.table(view(tables.type_table(combined))),
+            page_views.table(view(tables.worst_table(combined))),
+        ),
         page_views.section(
             "heat", "Maximum error", page_views.table(_heat_view(combined))
         ),

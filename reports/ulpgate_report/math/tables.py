@@ -33,6 +33,98 @@ def paper_table(combined):
     )
 
 
+def command_of(row, token, argument):
+    """The command that shows everything about a function at an argument."""
+    return " ".join(("ulpgate at", row.function, token, *argument))
+
+
+def _limits(errors):
+    """How many of these largest errors lie within 0.5, 1 and 4 ULP each, and how many beyond."""
+    return tuple(
+        sum(low < error <= high for error in errors)
+        for low, high in ((-1, 0.5), (0.5, 1), (1, 4), (4, numbers.INFINITE))
+    )
+
+
+def _causes(cells):
+    """Kinds of wrong results with their counts, the most frequent first."""
+    counts = {}
+    for cell in cells:
+        for name, count in cell.mismatch.items():
+            counts[name] = counts.get(name, 0) + count
+    return sorted(
+        ((n, c) for n, c in counts.items() if c), key=lambda nc: (-nc[1], nc[0])
+    )
+
+
+def type_table(combined):
+    """What each type comes to: its rows by the size of their largest error, the worst of them, what is of the wrong kind."""
+    lines = []
+    for token in combined.type_tokens:
+        found = [
+            (row, combined.cells[row, token])
+            for row in combined.rows
+            if (row, token) in combined.cells
+        ]
+        judged = [(row, cell) for row, cell in found if cell.max_ulp is not None]
+        worst = max(judged, key=lambda rc: rc[1].max_ulp, default=(None, None))
+        causes = _causes(cell for _, cell in found)
+        lines.append(
+            (
+                token,
+                len(found),
+                *_limits([cell.max_ulp for _, cell in judged]),
+                worst[1] and worst[1].max_ulp,
+                worst[0] and worst[0].label,
+                sum(count for _, count in causes),
+                sum(1 for _, cell in found if cell.mismatches),
+                ", ".join(f"{name} {count:,}" for name, count in causes) or None,
+            )
+        )
+    columns = (
+        Column("type", "type", "code"),
+        *columns_of("count", rows="rows", to_half="to 0.5 ULP", to_one="to 1"),
+        *columns_of("count", to_four="to 4", beyond="beyond"),
+        Column("max_ulp", "max ULP", "ulp"),
+        Column("where", "of", "code"),
+        *columns_of("count", wrong_kind="wrong kind", in_rows="in rows"),
+        Column("causes", "which", "prose"),
+    )
+    caption = (
+        "Rows (functions, or parts of them) of each type by their largest error, the worst of them, and results that no number of ULP describes: "
+        "how many, in how many rows, and of which kinds."
+    )
+    return Table("type_table", caption, columns, tuple(lines))
+
+
+def worst_table(combined, most=8):
+    """The rows with the largest errors of all types."""
+    judged = [
+        (row, token, cell)
+        for (row, token), cell in combined.cells.items()
+        if cell.max_ulp is not None
+    ]
+    # Ties keep the order of functions and types.
+    judged.sort(key=lambda one: -one[2].max_ulp)
+    rows = [
+        (
+            row.label,
+            token,
+            cell.max_ulp,
+            cell.stratum,
+            command_of(row, token, cell.argmax),
+        )
+        for row, token, cell in judged[:most]
+    ]
+    columns = (
+        *columns_of("code", function="function", type="type"),
+        Column("max_ulp", "max ULP", "ulp"),
+        Column("stratum", "stratum", "text"),
+        Column("command", "shown by", "command"),
+    )
+    return Table("worst_table", "The largest errors of all.", columns, tuple(rows))
+
+
 def ulp_matrix(combined):
     """Maximum ULP error, function by type."""
     return _matrix(

@@ -29,6 +29,20 @@ def _context_view(context):
     return [(name.replace("_", " "), shown(context[name])) for name in names]
 
 
+def _machine_view(context):
+    """One sentence: where the run was made, and of what."""
+    libraries = context.get("libraries", {})
+    named = [
+        f"{name} {libraries[name]}"
+        for name in ("glibc", "Boost", "MPFR")
+        if name in libraries
+    ]
+    parts = [context.get("cpu"), ", ".join(named), context.get("compiler")]
+    if "seed" in context:
+        parts.append(f"seed {context['seed']}")
+    return "; ".join(part for part in parts if part)
+
+
 def _types_view(context):
     fields = ("token", "cpp_type", "total_bits", "decimal_places", "exponent_bits")
     fields += ("significand_bits", "reference_bits")
@@ -54,6 +68,7 @@ def render(context, headlines, sections, distributions=None):
     return environment.get_template("page.html.j2").render(
         context=_context_view(context),
         complete=context.get("complete", True),
+        machine=_machine_view(context),
         types=_types_view(context),
         headlines=headlines,
         sections=sections,

@@ -40,6 +40,8 @@ def _cell_view(cell, kind):
         "style": None,
         "href": None,
         "anchor": None,
+        "command": None,
+        "row": None,
     }
 
 
@@ -77,10 +79,11 @@ def cells_of(combined):
     ]
 
 
-def heat_view(table, cells, value_of, hover, scale, link=None):
+def heat_view(table, cells, value_of, hover, scale, link=None, command=None, row=None):
     """A matrix with colours and hover text; `cells` has a line of cells for each row of the table.
 
-    `link` gives the anchor on the page that a cell leads to.
+    `link` gives the anchor on the page that a cell leads to.  With `command` a cell opens: what hovers, the command that
+    shows it, and, with `row`, the distribution of that name.
     """
     view = table_view(table)
     for line, shown_line in zip(cells, view["rows"]):
@@ -94,6 +97,9 @@ def heat_view(table, cells, value_of, hover, scale, link=None):
                 shown["style"] = f"background:{back};color:{front}"
             if link is not None:
                 shown["href"] = link(cell)
+            if command is not None:
+                shown["command"] = command(cell)
+                shown["row"] = row and row(cell)
     return view
 
 

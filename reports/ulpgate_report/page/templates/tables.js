@@ -56,6 +56,59 @@
     document.getElementById("count").textContent = words.length ? shown + " of " + lines.length + " rows" : "";
   }
 
+  // Every row can be linked to: by its table and what it says first.
+  const taken = new Set();
+  tables.forEach((table) => {
+    Array.from(table.tBodies[0].rows).forEach((row) => {
+      const first = row.cells[0];
+      if (!first) return;
+      if (!row.id) {
+        const words = [first, row.cells[1]].filter((cell, i) => cell && (i === 0 || cell.querySelector("code")));
+        let name = table.id + "." + words.map((cell) => cell.textContent.trim().replace(/\s+/g, ".")).join(".");
+        for (let n = 2, stem = name; taken.has(name); ++n) name = stem + "." + n;
+        taken.add(name);
+        row.id = name;
+      }
+      const link = document.createElement("a");
+      link.className = "here";
+      link.href = "#" + encodeURIComponent(row.id);
+      link.textContent = "#";
+      link.setAttribute("aria-label", "link to this row");
+      first.append(link);
+    });
+  });
+
+  // A cell that opens: what is known of it, the command that shows it, the way to its distribution.
+  const dialog = document.getElementById("cell");
+  const command = document.getElementById("cell-command");
+  const leads = document.getElementById("cell-distribution");
+  let opened = null;
+  document.addEventListener("click", (event) => {
+    const button = event.target.closest(".cell");
+    if (!button) return;
+    opened = button.closest("td");
+    document.getElementById("cell-text").textContent = opened.title;
+    command.textContent = opened.dataset.command;
+    leads.hidden = !opened.dataset.row || !document.getElementById("row");
+    dialog.showModal();
+  });
+  document.getElementById("cell-copy").addEventListener("click", () => {
+    const range = document.createRange();
+    range.selectNodeContents(command);
+    const selection = window.getSelection();
+    selection.removeAllRanges();
+    selection.addRange(range);
+    // A page from the disk may not have the clipboard; what is selected can be copied by hand all the same.
+    if (navigator.clipboard) navigator.clipboard.writeText(command.textContent).catch(() => {});
+  });
+  leads.addEventListener("click", () => {
+    dialog.close();
+    const choice = document.getElementById("row");
+    choice.value = opened.dataset.row;
+    choice.dispatchEvent(new Event("change"));
+    document.getElementById("distribution").scrollIntoView();
+  });
+
   // A link may lead to a row of a closed list, or of one that the filter hides.
   function show() {
     const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
@@ -64,7 +117,7 @@
     if (closed) closed.open = true;
     const row = target.closest("tr");
     if (row) row.hidden = false;
-    if (closed) target.scrollIntoView({ block: "center", inline: "start" });
+    if (closed || row) target.scrollIntoView({ block: "center", inline: "start" });
   }
   window.addEventListener("hashchange", show);
   show();
