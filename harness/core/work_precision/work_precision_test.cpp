@@ -106,6 +106,7 @@ TEST(Shared, IsMadeOnceAndFailsForAll) {
   });
   std::vector<std::thread> pool;
   std::atomic<int> sum = 0;
+  pool.reserve(4);
   for (int i = 0; i < 4; ++i) pool.emplace_back([&] { sum += value.get({}); });
   for (auto& t : pool) t.join();
   EXPECT_EQ(made, 1);
