@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import platform
 import re
 import subprocess
 
@@ -12,6 +13,11 @@ ROOT = HERE.parent
 PAGES = [ROOT / "README.md", *sorted(HERE.rglob("*.md"))]
 PAGES = [p for p in PAGES if "generated" not in p.parts and p != HERE / "README.md"]
 PROGRAM = pathlib.Path(os.environ["ULPGATE"]).resolve()
+
+# The numbers on the pages are those of this C library, in its variants for processors with fused multiply-add.
+# Elsewhere commands are run all the same, and what they print is not compared.
+FMA = " fma " in pathlib.Path("/proc/cpuinfo").read_text()
+SAME_NUMBERS = platform.libc_ver() == ("glibc", "2.36") and FMA
 
 # Shown at the size that a reader wants, run at one that takes a second.
 SMALLER = [
@@ -103,6 +109,8 @@ def test_commands_of_a_page(page, folder):
                 done = run_in(folder, command)
                 said = done.stdout + done.stderr
                 assert done.returncode == code, f"{command}\n{said}"
+                if not SAME_NUMBERS:
+                    continue
                 # What goes to stdout and what to stderr, a reader does not see; which comes first is not told.
                 wanted = pattern_of(lines)
                 streams = (
