@@ -25,12 +25,6 @@ html_copy_source = False
 html_show_sphinx = False
 # A prompt is no part of a command.
 copybutton_prompt_text = "$ "
-# Sources that pages point to are not pages themselves.
-suppress_warnings = ["myst.xref_missing"]
-nitpicky = False
-# Pages are read from the disk: nothing may come from the network.
-html_css_files = []
-
 sys.path.insert(0, str(ROOT / "harness/interface/python"))
 os.environ.setdefault(
     "ULPGATE_LIBRARY", str(ROOT / "build/release/harness/interface/libulpgate.so")

@@ -128,7 +128,9 @@ def test_commands_of_a_page(page, folder):
                     command = re.sub(large, small, command)
                 if command:
                     done = run_in(folder, command)
-                    assert done.returncode in (0, 1), f"{command}\n{done.stderr}"
+                    # Where a library is wrong a search says so.
+                    codes = (0, 1) if "ulpgate search" in command else (0,)
+                    assert done.returncode in codes, f"{command}\n{done.stderr}"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=page_name)
@@ -141,9 +143,10 @@ def test_what_another_test_runs_is_there(page):
         for line in body.splitlines():
             words = line.partition("  #")[0].split()
             if words:
-                # Of the program itself, the verb.
-                name = words[words[0] == "ulpgate"]
-                name = pathlib.Path(name).name
+                # Of the program itself the verb, as a word of a list of options.
+                name = pathlib.Path(words[0]).name
+                if name == "ulpgate":
+                    name = f'"{words[1]}"'
                 assert name in text, f"{file} runs no {name}"
 
 

@@ -55,10 +55,12 @@ def headline(combined):
     )
     if judged:
         (row, token), cell = max(judged, key=lambda one: one[1].max_ulp)
-        correct = sum(cell.max_ulp <= 0.5 for _, cell in judged)
-        faithful = sum(cell.max_ulp <= 1 for _, cell in judged)
+        # A result of the wrong kind is none that is rounded correctly, and has no part in the largest error.
+        sound = [cell.max_ulp for _, cell in judged if not cell.mismatches]
+        correct = sum(error <= 0.5 for error in sound)
+        faithful = sum(error <= 1 for error in sound)
         said += (
-            f" Of {len(judged):,} rows {correct:,} are rounded correctly everywhere and {faithful:,} err by at most 1 ULP; "
+            f" Of {len(judged):,} rows {correct:,} are rounded correctly at every sample and {faithful:,} err by at most 1 ULP; "
             f"the largest error is {numbers.short_ulp(cell.max_ulp)} ULP, of {row.label} in {token}."
         )
     said += f" Two references were compared on {compared:,} results"

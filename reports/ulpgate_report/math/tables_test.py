@@ -89,3 +89,37 @@ def test_latex_compiles_and_breaks_over_pages(tmp_path):
     run = combined_run(None, hard_values)
     made = [make(run) for make, formats in kind.TABLES if "tex" in formats]
     assert "(1 page" not in compile_tables(made, tmp_path)
+
+
+def test_a_result_of_the_wrong_kind_is_not_rounded_correctly():
+    def exact(record):
+        record.update(max_ulp=0.5, mismatch={})
+
+    def wrong_in_double(record):
+        exact(record)
+        if is_at(record, "double", "edges"):
+            record.update(mismatch={"zero_sign": 1})
+
+    run = combined_run(["sin"], exact)
+    ((said, _),) = kind.headline(run)
+    types = len(run.type_tokens)
+    assert f"Of {types} rows {types} are rounded correctly" in said
+    run = combined_run(["sin"], wrong_in_double)
+    ((said, _),) = kind.headline(run)
+    assert f"Of {types} rows {types - 1} are rounded correctly" in said
+    (row,) = [r for r in csv_rows(tables.type_table(run)) if r["type"] == "double"]
+    assert (row["wrong_kind"], row["causes"]) == ("1", "zero_sign 1")
+
+
+def test_the_largest_errors_come_first_with_their_commands():
+    def change(record):
+        if is_at(record, "double", "edges"):
+            record.update(max_ulp=1e9, argmax=["0x1.8p+1"])
+
+    run = combined_run(["tan", "sin"], change)
+    rows = csv_rows(tables.worst_table(run))
+    errors = [float(row["max_ulp"]) for row in rows]
+    assert errors == sorted(errors, reverse=True) and errors[0] == 1e9
+    assert rows[0]["command"] in (
+        f"ulpgate at {name} double 0x1.8p+1" for name in ("sin", "tan")
+    )
