@@ -147,7 +147,10 @@ class NativeStage {
       finding = finding_of({});
       return true;
     }
-    if (std::signbit(got) != signbit_of(value)) return false;
+    // A zero of the other sign is one for all numbers that round to zero; it is no rare find, a library that
+    // knows no signs of zeros gives it for millions of floats.
+    const bool other_sign = std::signbit(got) != signbit_of(value);
+    if (other_sign && got != 0) return false;
     if (got != 0) {
       // A pole, or beyond the range by more than the bound.  Where W has the exponents of Real its infinity
       // says too little.
@@ -164,12 +167,15 @@ class NativeStage {
       const double error = std::fabs(static_cast<double>(value)) * power_of_two(L::digits - L::min_exponent);
       const double slack = error * (bound * power_of_two(1 - significand_bits<W>) + 0x1p-48);
       finding = {Outcome::finite, error - slack, error + slack, 0, true, true};
-      return finding.greatest < 0.5;
+      if (!(finding.greatest < 0.5)) return false;
+      if (other_sign) finding = finding_of({Outcome::zero_sign, {}, 0, false});
+      return true;
     }
     // A zero of W may be an exact one.
     if (!bits.normal && !(is_never_zero(id_) && std::isfinite(args[0]))) return false;
     const double greatest = power_of_two(std::max(size, -900) + 1);
     finding = {Outcome::finite, smallest_error, greatest, 0, true, true};
+    if (other_sign) finding = finding_of({Outcome::zero_sign, {}, 0, false});
     return true;
   }
 
