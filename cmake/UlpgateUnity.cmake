@@ -2,7 +2,7 @@
 # once, which takes a quarter off a build from nothing.  On by default, so that two names that meet in a room are seen by
 # whoever wrote them; who changes one source again and again may rather have it OFF.  Code of one type keeps a
 # translation unit of its own either way: what a change can affect is read from its dependencies
-# (scripts/changed_since.py).  Tests do as well, since their helpers have the same names everywhere.
+# (scripts/merge/changed_since.py).  Tests do as well, since their helpers have the same names everywhere.
 
 option(ULPGATE_UNITY "Compile the sources of a room in one translation unit" ON)
 

@@ -29,12 +29,7 @@ class Child:
         self.place = out / job.name
         self.place.parent.mkdir(parents=True, exist_ok=True)
         self.log = directory / "log.txt"
-        words = [program, *job.words, "--out", str(self.place)]
-        if job.resumes:
-            words.append("--resume")
-        if job.threads != 1:
-            words += ["--threads", str(threads)]
-        self.words = words
+        words = job.command(program, self.place, threads)
         with open(self.log, "w") as log, open(directory / "output.txt", "w") as output:
             self.process = subprocess.Popen(
                 words,

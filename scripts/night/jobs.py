@@ -52,6 +52,28 @@ class Job:
     resumes: bool = True
     # --out names a file and not a directory.
     out_is_file: bool = False
+    # Another program than ulpgate; its words are whole, with {out} for OUT/<name>.
+    program: str = ""
+    # It measures time: nothing runs beside it, and how many threads it has is among its words.
+    alone: bool = False
+    # How it is shown to people, where its words say more than they should know.
+    shown: str = ""
+
+    def cores(self, all_cores):
+        """How many it takes of those that a run of jobs has."""
+        return all_cores if self.alone else self.threads or all_cores
+
+    def command(self, ulpgate, place, threads):
+        """What is run, with all its words."""
+        if self.program:
+            words = [word.replace("{out}", str(place)) for word in self.words]
+            return [self.program, *words]
+        words = [ulpgate, *self.words, "--out", str(place)]
+        if self.resumes:
+            words.append("--resume")
+        if self.threads != 1 and not self.alone:
+            words += ["--threads", str(threads)]
+        return words
 
 
 def asked(program, *words):
@@ -127,11 +149,11 @@ def search_jobs(program, types, evaluations, seed, worst_cases):
             )
 
 
-def pendulum_jobs(program, types):
+def pendulum_jobs(program, types, size="night"):
     """The suite's own list: scripts/pendulum says what it runs."""
     words = [
         "--size",
-        "night",
+        size,
         "--types",
         ",".join(types),
         "--ulpgate",

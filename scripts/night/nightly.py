@@ -14,332 +14,31 @@ with jobs left (the same command with --resume goes on), 4 a job crashed twice, 
 
 import os
 import pathlib
-import shutil
 import signal
-import subprocess
-import sys
-import time
 
-from children import PATIENCE_S, Child
-from estimates import earlier, keep, kept, pilot
+from job_run import JobRun
 from jobs import jobs_of, types_of
-from night_common import (
-    ENVIRONMENT,
-    INCOMPLETE,
-    PASS,
-    REGRESSION,
-    ROOT,
-    Failure,
-    lock,
-    main_of,
-    more_serious,
-    write_aside,
-)
+from night_common import ENVIRONMENT, PASS, Failure, lock, main_of
 from plan import options_of, plan_of, write_patch
-from records import Seals, set_aside, write_manifest
-from status import Status, clock, line_of, stamp
-
-LEAST_ROOM = 64 << 20  # bytes; with less on the disk no job can keep what it has
-ATTEMPTS = 2
-# Exit codes of what a job and its gate found; `unheld`: rows without a budget.
-CODES = {"pass": PASS, "red": REGRESSION, "unheld": INCOMPLETE}
 
 
-def say(text):
-    try:
-        print(f"nightly: {text}", file=sys.stderr, flush=True)
-    except OSError:
-        pass  # Nobody listens any more; the files say it.
+class Night(JobRun):
+    """Jobs of a night, and the arguments that its searches found."""
 
+    name = "nightly"
 
-class Night:
-    def __init__(self, options, out, plan):
-        self.options = options
-        self.out = out
-        self.plan = plan
-        self.types = types_of(options.ulpgate, plan["types"])
-        worst = out / "worst_cases"
-        self.jobs = jobs_of(
-            options.ulpgate, plan["size"], self.types, plan["seed"], worst
-        )
-        self.seals = Seals(out)
-        self.status = Status(out, say)
-        self.done = {}
-        self.failed = {}
-        self.running = []
-        self.left = []
-        self.attempts = {}
-        self.estimates = {}
-        self.ending = ""
-        self.began = time.time()
-        self.deadline = (
-            None if options.hours is None else self.began + 3600 * options.hours
-        )
-        self.worst = PASS
-        self.last_line = ""
+    @property
+    def command(self):
+        """Goes on with this night."""
+        return f"ci/nightly --out {self.out} --resume"
 
-    def stop(self, *_):
-        """Of a signal: the first ends what runs and keeps it, the second ends at once."""
-        if self.ending == "interrupted":
-            for child in self.running:
-                child.kill()
-        self.ending = "interrupted"
-
-    # What is known by now, as status.json has it.
-    def facts(self, state):
-        now = time.time()
-        waiting = [job.name for job in self.left]
-        unknown = [
-            n
-            for n in waiting + [c.job.name for c in self.running]
-            if n not in self.estimates
-        ]
-        remaining = sum(self.estimates.get(n, 0) for n in waiting)
-        remaining += sum(
-            max(0, self.estimates.get(c.job.name, 0) - (now - c.since))
-            for c in self.running
-        )
-        end = now + remaining
-        if self.deadline is not None:
-            end = min(end, self.deadline)
-        return {
-            "state": state,
-            "out": str(self.out),
-            "size": self.plan["size"],
-            "seed": self.plan["seed"],
-            "types": self.types,
-            "machine": self.plan["machine"],
-            "started": stamp(self.began),
-            "deadline": None if self.deadline is None else stamp(self.deadline),
-            "now": stamp(now),
-            "expected_end": stamp(end) if state == "running" else None,
-            "without_estimate": unknown,
-            "jobs": len(self.jobs),
-            "done": list(self.done.values()),
-            "failed": list(self.failed.values()),
-            "running": [
-                {
-                    "name": c.job.name,
-                    "seconds": round(now - c.since, 1),
-                    "estimate": self.estimates.get(c.job.name),
-                }
-                for c in self.running
-            ],
-            "left": waiting,
-        }
-
-    def tell(self, state="running"):
-        facts = self.facts(state)
-        self.status.write(facts)
-        return facts
-
-    def run(self):
-        for job in self.jobs:
-            sealed = self.seals.read(job)
-            if sealed is None:
-                self.left.append(job)
-                if self.seals.file(job).exists() and (self.out / job.name).exists():
-                    spoiled = set_aside(self.out, job)
-                    say(
-                        f"{job.name}: not the records that were sealed, now in {spoiled}"
-                    )
-            else:
-                self.done[job.name] = sealed
-                self.worst = more_serious(self.worst, CODES[sealed["verdict"]])
-        say(
-            f"{self.out}: seed {self.plan['seed']}, {len(self.jobs)} jobs, {len(self.done)} done before"
-        )
-        self.tell()
-        self.estimate()
-        told = 0
-        while self.left or self.running:
-            self.start_what_fits()
-            self.settle()
-            self.end_where_time_is_over()
-            if self.ending and not self.running:
-                break
-            if time.monotonic() - told > 5:
-                told = time.monotonic()
-                self.tell()
-            time.sleep(0.1)
-        return self.finish()
-
-    def estimate(self):
-        self.estimates = earlier(self.out) | kept(self.out)
-        missing = [job for job in self.left if job.name not in self.estimates]
-        if missing and self.plan["size"] == "night":
-            say("pilot runs, for the time each job should take")
-            self.estimates |= pilot(
-                self.options.ulpgate,
-                missing,
-                self.options.threads,
-                lambda: bool(self.ending),
+    def add(self):
+        """Writes the patch of the worst cases."""
+        added = write_patch(self.out)
+        if added:
+            self.say(
+                f"{added} lines for ci/worst_cases: git apply {self.out / 'worst_cases.patch'}"
             )
-            if not self.ending:
-                keep(self.out, self.estimates)
-
-    def start_what_fits(self):
-        while self.left and not self.ending:
-            job = self.left[0]
-            wants = job.threads or self.options.threads
-            if sum(c.threads for c in self.running) + wants > self.options.threads:
-                return
-            free = shutil.disk_usage(self.out).free
-            if free < LEAST_ROOM:
-                self.ending = f"no room: {free >> 20} MiB are free where {self.out} is"
-                self.worst = more_serious(self.worst, ENVIRONMENT)
-                return
-            try:
-                child = Child(job, self.options.ulpgate, self.out, wants)
-            except OSError as e:
-                self.ending = f"{job.name} cannot be started: {e}"
-                self.worst = more_serious(self.worst, ENVIRONMENT)
-                return
-            self.left.pop(0)
-            self.running.append(child)
-            self.tell()
-
-    def settle(self):
-        for child in list(self.running):
-            code = child.code()
-            if code is None:
-                continue
-            self.running.remove(child)
-            seconds = time.time() - child.since
-            if code in (PASS, REGRESSION):
-                self.seal(child, code, seconds)
-            elif child.told:
-                self.left.insert(0, child.job)
-            else:
-                self.fail(child, code)
-            self.tell()
-
-    def seal(self, child, code, seconds):
-        job = child.job
-        try:
-            verdict, why = self.judge(job, code, child)
-            before = self.seals.file(job)
-            facts = {
-                "verdict": verdict,
-                "why": why,
-                "code": code,
-                "seconds": round(seconds, 1),
-            }
-            self.done[job.name] = self.seals.write(job, facts)
-        except OSError as e:
-            self.ending = f"{before}: {e}"
-            self.worst = more_serious(self.worst, ENVIRONMENT)
-            self.left.insert(0, job)
-            return
-        self.worst = more_serious(self.worst, CODES[verdict])
-        self.remember(job)
-        say(f"{job.name}: {verdict} in {clock(seconds)}{': ' + why if why else ''}")
-
-    def judge(self, job, code, child):
-        """('pass', 'red' or 'unheld', why): of the command itself, and of the gate where the job has budgets."""
-        if code != PASS:
-            return "red", child.last_words()
-        if not job.gate:
-            return "pass", ""
-        words = [self.options.ulpgate, "gate", str(self.out / job.name), *job.gate]
-        text = subprocess.run(words, capture_output=True, text=True)
-        write_aside(
-            self.out / "logs" / job.name / "gate.txt", text.stdout + text.stderr
-        )
-        if text.returncode == PASS:
-            return "pass", ""
-        lines = (text.stdout + text.stderr).strip().splitlines()
-        why = f"gate: exit {text.returncode}: {lines[0] if lines else ''} (logs/{job.name}/gate.txt)"
-        # Rows that have no budget, or too few samples for one: no verdict is neither a pass nor a failure.
-        return "unheld" if text.returncode == INCOMPLETE else "red", why
-
-    def remember(self, job):
-        """Into the history; a file that cannot be written is said and is no fault of the job."""
-        place = self.out / job.name
-        if self.options.history is None or not (place / "context.json").exists():
-            return
-        words = [
-            self.options.ulpgate,
-            "history",
-            "--add",
-            str(place),
-            "--db",
-            self.options.history,
-        ]
-        done = subprocess.run(words, capture_output=True, text=True, cwd=ROOT)
-        if done.returncode != PASS:
-            lines = done.stderr.strip().splitlines()
-            say(f"history: {lines[-1] if lines else f'exit {done.returncode}'}")
-            self.worst = more_serious(self.worst, ENVIRONMENT)
-
-    def fail(self, child, code):
-        job = child.job
-        self.attempts[job.name] = self.attempts.get(job.name, 0) + 1
-        why = child.last_words()
-        say(f"{job.name}: exit {code}: {why}")
-        if shutil.disk_usage(self.out).free < LEAST_ROOM:
-            self.left.insert(0, job)
-            return  # Not the job's fault; the next start says that there is no room.
-        if self.attempts[job.name] < ATTEMPTS:
-            self.left.append(job)
-            return
-        self.failed[job.name] = {
-            "name": job.name,
-            "code": code,
-            "why": why,
-            "log": f"logs/{job.name}/log.txt",
-        }
-        self.worst = more_serious(self.worst, code)
-
-    def end_where_time_is_over(self):
-        if (
-            self.deadline is not None
-            and time.time() >= self.deadline
-            and not self.ending
-        ):
-            self.ending = "out of time"
-        if not self.ending:
-            return
-        for child in self.running:
-            child.tell_to_end()
-            if child.told and time.time() > child.told_at + PATIENCE_S:
-                child.kill()
-
-    def finish(self):
-        left = [job.name for job in self.left]
-        if left or self.failed:
-            self.worst = more_serious(self.worst, INCOMPLETE)
-        state = self.ending or ("complete" if not self.failed else "some jobs failed")
-        try:
-            write_manifest(self.out, self.done.values())
-            added = write_patch(self.out)
-            if added:
-                say(
-                    f"{added} lines for ci/worst_cases: git apply {self.out / 'worst_cases.patch'}"
-                )
-        except OSError as e:
-            say(str(e))
-            self.worst = more_serious(self.worst, ENVIRONMENT)
-        facts = self.tell(state)
-        say(line_of(facts))
-        if left:
-            say(f"left out: {', '.join(grouped(left))}")
-            say(f"go on with: ci/nightly --out {self.out} --resume")
-        return self.worst
-
-
-def grouped(jobs):
-    """Names of jobs for people: searches of many functions of one type are one."""
-    groups = {}
-    for name in jobs:
-        many = name.startswith("search/") and "_" in name
-        groups.setdefault(name.rsplit("_", 1)[0] + "_*" if many else name, []).append(
-            name
-        )
-    return [
-        f"{group} ({len(names)})" if len(names) > 1 else names[0]
-        for group, names in groups.items()
-    ]
 
 
 def run(words):
@@ -362,7 +61,11 @@ def run(words):
     held = lock(out / "lock")
     if held is None:
         raise Failure(ENVIRONMENT, f"{out}: another night is at work there")
-    night = Night(options, out, plan_of(options, out))
+    plan = plan_of(options, out)
+    types = types_of(options.ulpgate, plan["types"])
+    worst = out / "worst_cases"
+    jobs = jobs_of(options.ulpgate, plan["size"], types, plan["seed"], worst)
+    night = Night(options, out, plan, types, jobs)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, night.stop)
     return night.run()

@@ -1,6 +1,6 @@
 """The gravity deposition in the packaged YADE: run by `yade -jN -x -n`; its speed and a few facts as JSON.
 
-Written from YADE's documented Python interface and the scene's published numbers; see scripts/compare_yade.py.
+Written from YADE's documented Python interface and the scene's published numbers; see scripts/peers/compare_yade.py.
 """
 
 import json

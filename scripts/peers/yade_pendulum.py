@@ -1,6 +1,6 @@
 """The triple pendulum in the packaged YADE: run by `yade -j1 -x -n`; states at some steps as hexfloats, JSON.
 
-Written from YADE's documented Python interface and the paper's description of the scene; see scripts/compare_yade.py.
+Written from YADE's documented Python interface and the paper's description of the scene; see scripts/peers/compare_yade.py.
 """
 
 import json

@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
 
 from program import ROOT, ULPGATE, run  # noqa: E402
 
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "scripts/merge"))
 import budget_platform  # noqa: E402
 
 SIZE = ["--samples", "1000", "--timing", "off"]

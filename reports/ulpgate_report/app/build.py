@@ -10,10 +10,12 @@ from ulpgate_report.page import page, page_views
 from ulpgate_report.pendulum import kind as kind_pendulum
 from ulpgate_report.scenes import kind as kind_scenes
 from ulpgate_report.stability import kind as kind_stability
+from ulpgate_report.standing import kind as kind_standing
 from ulpgate_report.tables import table_csv, table_latex, table_markdown
 from ulpgate_report.work_precision import kind as kind_work_precision
 
 KINDS = (
+    kind_standing,
     kind_math,
     kind_kernels,
     kind_pendulum,
@@ -57,7 +59,7 @@ def _write_tables(parts, out):
                     output.remove(out / f"{make.__name__}.{form}")
 
 
-def _drawn(kind, data):
+def drawn_of(kind, data):
     """Yield (name, caption, figure) of all figures of a kind that exist."""
     for draw in kind.FIGURES:
         made = draw(data)
@@ -79,7 +81,7 @@ def _write_figures(parts, out):
     """Write the figures; returns the SVG text and caption of each by its name."""
     drawn = {}
     for kind, data in parts:
-        for name, caption, figure in _drawn(kind, data):
+        for name, caption, figure in drawn_of(kind, data):
             base = out / "figures" / name
             files = figure_style.render(figure, name)
             for suffix, content in files.items():

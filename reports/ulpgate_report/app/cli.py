@@ -11,6 +11,7 @@ from ulpgate_report.libraries import beside
 from ulpgate_report.records import records, suite
 from ulpgate_report.records.errors import InvalidInput, OutputFailure, ReportError
 from ulpgate_report.tables import table_text
+from ulpgate_report.standing import standing
 from ulpgate_report.work_precision import axes
 
 EXIT_OK = 0
@@ -51,6 +52,18 @@ def _parser():
         metavar="FILE",
         type=Path,
         help="also the trends of the runs that `ulpgate history --add` put into FILE",
+    )
+    parser.add_argument(
+        "--gate",
+        metavar="FILE",
+        type=Path,
+        help="what `ulpgate gate DIR --json` printed: the page says first whether the run passed",
+    )
+    parser.add_argument(
+        "--before",
+        metavar="DIR",
+        type=Path,
+        help="an earlier run: the page says which rows are others now",
     )
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--out", metavar="OUT", type=Path, help="write the report there")
@@ -109,6 +122,10 @@ def main(argv):
         run = dataclasses.replace(run, axes=tuple(dict.fromkeys(arguments.axes)))
         if arguments.history is not None:
             run = dataclasses.replace(run, history=history_file.load(arguments.history))
+        if arguments.gate is not None:
+            run = dataclasses.replace(run, gate=standing.load_gate(arguments.gate))
+        if arguments.before is not None:
+            run = dataclasses.replace(run, before=records.load(arguments.before))
         parts = build.parts_of(run)
         if not run.context.get("complete", True):
             print(

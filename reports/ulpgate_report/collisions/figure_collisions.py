@@ -174,11 +174,14 @@ def draw(collisions):
         runs = {t: of_type[t] for t in tokens if t in of_type and of_type[t].ended}
         if not runs:
             continue
-        figure, plots = pyplot.subplots(1, 3, figsize=_SIZE)
+        figure, plots = figure_style.panels(3, *_SIZE)
         beyond = _draw_restitution(plots[0], runs, tokens)
         _draw_steps(plots[1], runs, tokens)
         made = _draw_energy(plots[2], runs, tokens)
-        figure.subplots_adjust(0.07, 0.29, 0.995, 0.97, wspace=0.36)
+        if figure_style.is_one_column():
+            figure.subplots_adjust(0.18, 0.12, 0.995, 0.99, hspace=0.3)
+        else:
+            figure.subplots_adjust(0.07, 0.29, 0.995, 0.97, wspace=0.36)
         _legend(figure, runs, tokens)
         most = max(len(run.ended) for run in runs.values())
         drawn = (

@@ -1,4 +1,5 @@
 """The look that all figures share, and their bytes: the same input gives the same file."""
+import contextlib
 import io
 import math
 
@@ -8,6 +9,9 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (the backend has to be chosen first)
 
 SUFFIXES = ("pdf", "svg", "png")
+# Widths of a page and of one of its two columns, as journals have them.
+PAGE_INCHES, COLUMN_INCHES = 7.2, 3.5
+_width = {"inches": PAGE_INCHES}
 PNG_DOTS_PER_INCH = 200
 # Okabe and Ito's colours, told apart by colour-blind readers; yellow is left out, too pale on white.
 _COLOURS = (
@@ -62,6 +66,49 @@ def step_colour(index, count):
 def marker(index):
     """Marker of the type at `index`; the colours repeat sooner than the markers."""
     return _MARKERS[index % len(_MARKERS)]
+
+
+@contextlib.contextmanager
+def one_column():
+    """Figures drawn inside are as wide as one column: panels stand below each other where they stood side by side."""
+    _width["inches"] = COLUMN_INCHES
+    try:
+        yield
+    finally:
+        _width["inches"] = PAGE_INCHES
+
+
+def is_one_column():
+    """Whether figures are drawn for one column."""
+    return _width["inches"] < PAGE_INCHES
+
+
+def width(inches):
+    """The width of a plot that asks for so many inches; labels outside of it come on top."""
+    return min(inches, COLUMN_INCHES - 0.5) if is_one_column() else inches
+
+
+def side_by_side(count):
+    """How many of `count` panels stand beside each other."""
+    return 1 if is_one_column() else count
+
+
+def legend_columns(count):
+    """How many entries of a legend stand in a line."""
+    return min(count, 3) if is_one_column() else count
+
+
+def panels(count, inches, height):
+    """A figure with `count` panels in a row of so many inches, or below each other; (figure, its axes)."""
+    across = side_by_side(count)
+    figure, grid = pyplot.subplots(
+        count // across,
+        across,
+        figsize=(width(inches), height * (count // across)),
+        squeeze=False,
+    )
+    figure.subplots_adjust(hspace=0.42)
+    return figure, list(grid.flat)
 
 
 def render(figure, name, suffixes=SUFFIXES):

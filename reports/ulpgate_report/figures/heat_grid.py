@@ -38,7 +38,7 @@ class Grid:
 
 def _blocks(grid):
     rows = grid.rows
-    if len(rows) <= ROWS_OF_ONE_BLOCK:
+    if len(rows) <= ROWS_OF_ONE_BLOCK or figure_style.is_one_column():
         return [rows]
     half = math.ceil(len(rows) / 2)
     # The parts of one function stay together.
@@ -158,7 +158,11 @@ def draw(grid):
     """The figure."""
     blocks = _blocks(grid)
     columns = len(grid.columns)
-    block_width = grid.label_inches + columns * COLUMN_INCHES
+    cell = COLUMN_INCHES
+    if figure_style.is_one_column():
+        room = figure_style.COLUMN_INCHES - grid.label_inches
+        cell = min(cell, max(0.3, room / columns))
+    block_width = grid.label_inches + columns * cell
     height = max(map(len, blocks)) * ROW_INCHES
     below, above = 0.65, 1.0
     figure = pyplot.figure(figsize=(block_width * len(blocks), height + below + above))
@@ -171,7 +175,7 @@ def draw(grid):
             [
                 left / total_width,
                 (top - inches) / total_height,
-                columns * COLUMN_INCHES / total_width,
+                columns * cell / total_width,
                 inches / total_height,
             ]
         )
@@ -181,6 +185,6 @@ def draw(grid):
         grid,
         grid.label_inches / total_width,
         0.35 / total_height,
-        2.6 / total_width,
+        (1.2 if figure_style.is_one_column() else 2.6) / total_width,
     )
     return figure

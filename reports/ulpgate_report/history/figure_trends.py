@@ -90,7 +90,10 @@ def draw(history):
     )
     if not shown:
         return FAMILY, caption, None
-    size = (_WIDTH, _HEIGHT * len(shown) + 0.4)
+    size = (
+        figure_style.width(_WIDTH) + 0.4 * figure_style.is_one_column(),
+        _HEIGHT * len(shown) + 0.4,
+    )
     figure, panels = pyplot.subplots(
         len(shown), 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
     )

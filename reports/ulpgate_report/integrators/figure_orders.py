@@ -121,12 +121,12 @@ def _draw(of_type, bits, longest):
     names = list(
         dict.fromkeys(c.integrator for c in sorted(found, key=lambda c: c.order))
     )
-    columns = min(3, len(of_type))
+    columns = min(figure_style.side_by_side(3), len(of_type))
     rows = math.ceil(len(of_type) / columns)
     figure, grid = pyplot.subplots(
         rows,
         columns,
-        figsize=(min(7.2, _PANEL_INCHES * columns), 3.0 * rows),
+        figsize=(figure_style.width(min(7.2, _PANEL_INCHES * columns)), 3.0 * rows),
         squeeze=False,
     )
     figure.subplots_adjust(wspace=0.3, hspace=0.35)
@@ -143,7 +143,7 @@ def _draw(of_type, bits, longest):
         handles=_handles(of_type, names, longest),
         loc="upper center",
         bbox_to_anchor=(0.5, -0.03 / rows),
-        ncol=3,
+        ncol=2 if figure_style.is_one_column() else 3,
         columnspacing=1.2,
         handlelength=2.6,
         fontsize=6.8,

@@ -72,7 +72,7 @@ def draw(combined):
     found = points(combined)
     if not found:
         return NAME, CAPTION, None
-    figure, axes = pyplot.subplots(figsize=(WIDTH_INCHES, 4.6))
+    figure, axes = pyplot.subplots(figsize=(figure_style.width(WIDTH_INCHES), 4.6))
     handles = []
     for index, token in enumerate(combined.type_tokens):
         mine = [point for point in found if point[0] == index]
@@ -97,7 +97,7 @@ def draw(combined):
         handles=handles,
         loc="lower left",
         bbox_to_anchor=(0, 1.0),
-        ncol=min(4, len(handles)),
+        ncol=figure_style.legend_columns(min(4, len(handles))),
         columnspacing=1.0,
         handletextpad=0.2,
     )

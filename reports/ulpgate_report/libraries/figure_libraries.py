@@ -100,7 +100,7 @@ def draw(beside):
     figure, all_axes = pyplot.subplots(
         len(panels),
         1,
-        figsize=(WIDTH_INCHES, HEIGHT_INCHES * len(panels)),
+        figsize=(figure_style.width(WIDTH_INCHES) + 0.4, HEIGHT_INCHES * len(panels)),
         squeeze=False,
     )
     for axes, (token, found) in zip(all_axes[:, 0], panels):

@@ -98,9 +98,10 @@ def _draw_class(combined, kind):
     ]
     if not rows:
         return name, _caption(kind), None
-    columns = min(COLUMNS, len(rows))
+    columns = min(3 if figure_style.is_one_column() else COLUMNS, len(rows))
     lines = math.ceil(len(rows) / columns)
     width, height = PANEL_INCHES
+    width = figure_style.width(columns * width + 0.5) / columns - 0.5 / columns
     figure, grid = pyplot.subplots(
         lines,
         columns,
@@ -141,7 +142,7 @@ def _draw_class(combined, kind):
         handles=handles,
         loc="lower center",
         bbox_to_anchor=(0.5, 1 + 0.2 / inches),
-        ncol=min(len(handles), columns + 1),
+        ncol=figure_style.legend_columns(min(len(handles), columns + 1)),
         columnspacing=1.0,
     )
     return name, _caption(kind), figure

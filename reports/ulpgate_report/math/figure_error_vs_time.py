@@ -19,6 +19,8 @@ CAPTION = (
 # Below this the largest error of a type is not worth a name.
 NAMED_FROM_ULP = 4.0
 WIDTH_INCHES = 7.0
+# What names of types right of the plot take.
+NAMES_INCHES = 0.6
 INCHES_PER_DECADE = 0.11
 # Distance of the rows `exact` and `infinite` from the scale, in decades.
 ROW_OFFSET = 1.5
@@ -170,7 +172,10 @@ def draw(combined):
     finite = [p.log10_error for p in found if math.isfinite(p.log10_error)]
     scale = cut_scale.make(floors + finite)
     height = max(3.5, INCHES_PER_DECADE * (scale.length + 2 * ROW_OFFSET)) + 0.9
-    figure, axes = pyplot.subplots(figsize=(WIDTH_INCHES, height))
+    width = figure_style.width(WIDTH_INCHES)
+    if figure_style.is_one_column():
+        width -= NAMES_INCHES
+    figure, axes = pyplot.subplots(figsize=(width, height))
     handles = _draw_points(axes, combined, found, scale)
     right = _label_axes(axes, found, scale)
     _draw_floors(axes, combined, scale, right)
@@ -178,7 +183,7 @@ def draw(combined):
         handles=handles,
         loc="lower left",
         bbox_to_anchor=(0, 1.0),
-        ncol=min(7, len(handles)),
+        ncol=figure_style.legend_columns(min(7, len(handles))),
         columnspacing=1.0,
         handletextpad=0.2,
     )

@@ -2,7 +2,7 @@
 import numpy
 from matplotlib import pyplot
 
-from ulpgate_report.figures import type_style
+from ulpgate_report.figures import figure_style, type_style
 from ulpgate_report.pendulum.drawing import name_of
 from ulpgate_report.records.pendulum_records import (
     HALF_STEP,
@@ -63,8 +63,13 @@ def _draw_strip(axes, row, curve, colour, end):
 def _draw(rows, tokens):
     end = max(max(_edges(curve)[-1], row["t_s"]) for row, curve in rows)
     height = _STRIP_INCHES * len(rows) + 0.5
+    width = figure_style.width(_WIDTH_INCHES) - figure_style.is_one_column()
     figure, strips = pyplot.subplots(
-        len(rows), 1, figsize=(_WIDTH_INCHES, height), sharex=True, squeeze=False
+        len(rows),
+        1,
+        figsize=(width, height),
+        sharex=True,
+        squeeze=False,
     )
     figure.subplots_adjust(hspace=0.25)
     for axes, (row, curve) in zip(strips[:, 0], rows):

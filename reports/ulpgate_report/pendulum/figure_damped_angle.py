@@ -2,7 +2,7 @@
 import numpy
 from matplotlib import pyplot
 
-from ulpgate_report.figures import type_style
+from ulpgate_report.figures import figure_style, type_style
 from ulpgate_report.pendulum import published, savitzky_golay
 from ulpgate_report.pendulum.drawing import each_condition, name_of
 
@@ -81,11 +81,11 @@ def _draw(lines, tokens, behind):
     figure, grid = pyplot.subplots(
         len(found),
         2,
-        figsize=(_WIDTH_INCHES, _STRIP_INCHES * len(found) + 0.5),
+        figsize=(figure_style.width(_WIDTH_INCHES), _STRIP_INCHES * len(found) + 0.5),
         squeeze=False,
         width_ratios=(3.4, 1),
     )
-    figure.subplots_adjust(hspace=0.5, wspace=0.06)
+    figure.subplots_adjust(hspace=0.5, wspace=0.12)
     window = (0.0, min(_RAW_S, end))
     for (left, right), (token, line) in zip(grid, found):
         parted = parting_time(line, reference)

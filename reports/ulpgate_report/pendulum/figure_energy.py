@@ -65,17 +65,25 @@ def _draw_errors(axes, series):
 
 
 def _draw(lines):
+    across = figure_style.side_by_side(2)
+    height = 2.1 * len(lines) * 2 / across + 0.4
     figure, grid = pyplot.subplots(
-        len(lines), 2, figsize=(7.0, 2.1 * len(lines) + 0.4), squeeze=False, sharex=True
+        len(lines) * 2 // across,
+        across,
+        figsize=(figure_style.width(7.0), height),
+        squeeze=False,
+        sharex=True,
     )
     figure.subplots_adjust(wspace=0.28, hspace=0.2)
+    last = grid[-1]
+    grid = grid.reshape(len(lines), 2)
     for (left, right), (token, series) in zip(grid, lines):
         _draw_parts(left, series)
         _draw_errors(right, series)
         left.set_ylabel(f"{token}: energy (J)")
         left.ticklabel_format(axis="y", useMathText=True)
         right.set_ylabel("error of the energy (J)")
-    for axes in grid[-1]:
+    for axes in last:
         axes.set_xlabel("time (s)")
         axes.set_xlim(0, max(float(s.part_times[-1]) for _, s in lines))
     for axes in grid[0]:
@@ -84,7 +92,7 @@ def _draw(lines):
                 loc="lower left",
                 # Above the power of ten of the axis.
                 bbox_to_anchor=(-0.02, 1.07),
-                ncol=4,
+                ncol=figure_style.legend_columns(4),
                 columnspacing=0.8,
                 handlelength=1.8,
                 handletextpad=0.5,

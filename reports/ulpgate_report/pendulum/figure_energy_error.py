@@ -45,7 +45,7 @@ def _ends(rows):
 def _draw(found):
     steps = time_step.ordered(dt for dt, *_ in found)
     tokens = type_order.ordered(token for _, token, *_ in found)
-    figure, axes = pyplot.subplots(figsize=(5.6, 3.2))
+    figure, axes = pyplot.subplots(figsize=(figure_style.width(5.6), 3.2))
     for index, dt in enumerate(steps):
         style = step_style(index, len(steps))
         for raw in (True, False):
@@ -76,7 +76,7 @@ def _draw(found):
         handles=handles,
         loc="lower left",
         bbox_to_anchor=(-0.02, 1.0),
-        ncol=4,
+        ncol=figure_style.legend_columns(4),
         columnspacing=1.0,
         handletextpad=0.2,
     )

@@ -2,7 +2,7 @@
 import numpy
 from matplotlib import pyplot
 
-from ulpgate_report.figures import type_style
+from ulpgate_report.figures import figure_style, type_style
 from ulpgate_report.pendulum.drawing import each_condition, name_of
 
 FAMILY = "pendulum_snapshots"
@@ -68,7 +68,8 @@ def _draw(lines, instants, tokens, limits, behind):
     (left, right), (low, high) = limits
     aspect = min(2.0, max(0.5, (high - low) / (right - left)))
     side = min(
-        _WIDTH_INCHES / max(3, len(instants)), _HEIGHT_INCHES / aspect / len(lines)
+        figure_style.width(_WIDTH_INCHES) / max(3, len(instants)),
+        _HEIGHT_INCHES / aspect / len(lines),
     )
     height = side * aspect
     size = min(2.6, 2 * side)

@@ -2,6 +2,7 @@
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
 
+from ulpgate_report.figures import figure_style
 from ulpgate_report.pendulum import published
 from ulpgate_report.pendulum.drawing import (
     dodge,
@@ -85,7 +86,7 @@ def _draw(rows, scene, variant, all_tokens):
     found = durations(rows, all_tokens)
     steps = time_step.ordered(row["dt"] for row in rows)
     tokens = type_order.ordered(token for _, token in found)
-    figure, axes = pyplot.subplots(figsize=(5.6, 3.2))
+    figure, axes = pyplot.subplots(figsize=(figure_style.width(5.6), 3.2))
     for index, dt in enumerate(steps):
         style = step_style(index, len(steps))
         for (of_dt, token), row in found.items():
@@ -113,7 +114,7 @@ def _draw(rows, scene, variant, all_tokens):
         handles=handles,
         loc="lower left",
         bbox_to_anchor=(0, 1.0),
-        ncol=4,
+        ncol=figure_style.legend_columns(4),
         columnspacing=1.0,
         handletextpad=0.2,
     )

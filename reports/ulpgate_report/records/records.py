@@ -19,7 +19,8 @@ class Run:
     """One run as read; what was not run is empty. `time_ns` has the time of (what, type).
 
     `notes` are sentences about what was left out. `axes` are the pairs of axes that error against run time is drawn
-    with, as they were asked for; empty for those of the report.
+    with, as they were asked for; empty for those of the report. `gate` is what `ulpgate gate --json` found, `before` an
+    earlier run.
     """
 
     context: dict
@@ -35,6 +36,8 @@ class Run:
     axes: tuple = ()
     history: object = None
     libraries: object = None
+    gate: object = None
+    before: object = None
 
 
 def _require(context, name, file):

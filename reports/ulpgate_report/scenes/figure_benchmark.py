@@ -5,7 +5,7 @@ from matplotlib import pyplot
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ulpgate_report.figures import type_style
+from ulpgate_report.figures import figure_style, type_style
 from ulpgate_report.scenes import benchmark
 from ulpgate_report.values import type_order
 
@@ -105,7 +105,7 @@ def draw(scenes):
         bars = [bar for bar in all_bars if bar.timing["scene"] == scene]
         tokens = type_order.ordered(bar.timing["type"] for bar in bars)
         threads = sorted({bar.timing["threads"] for bar in bars})
-        figure, (left, right) = pyplot.subplots(1, 2, figsize=(7.0, 3.0))
+        figure, (left, right) = figure_style.panels(2, 7.0, 3.0)
         figure.subplots_adjust(wspace=0.3)
 
         def speed(bar):

@@ -59,7 +59,7 @@ def draw(scenes):
         lines = scenes.of(scenes.divergences, scene)
         if not lines:
             continue
-        figure, panels = pyplot.subplots(1, 2, figsize=(7.0, 3.2))
+        figure, panels = figure_style.panels(2, 7.0, 3.2)
         figure.subplots_adjust(wspace=0.3)
         drawn = [
             _draw_panel(axes, lines, scenes.type_tokens, column)
@@ -70,7 +70,10 @@ def draw(scenes):
             axes.set_ylabel(label)
         if any(drawn):
             panels[drawn.index(True)].legend(
-                loc="lower left", bbox_to_anchor=(0, 1.0), ncol=7, columnspacing=1.0
+                loc="lower left",
+                bbox_to_anchor=(0, 1.0),
+                ncol=figure_style.legend_columns(7),
+                columnspacing=1.0,
             )
             yield f"{FAMILY}_{scene}", _CAPTION % scene, figure
         else:

@@ -107,13 +107,13 @@ def draw(scenes):
         if kept:
             with_account = [token for token, _ in kept]
             shown = _SHOWN_TYPE if _SHOWN_TYPE in with_account else with_account[0]
-            figure, (left, right) = pyplot.subplots(1, 2, figsize=(7.0, 3.2))
+            figure, (left, right) = figure_style.panels(2, 7.0, 3.2)
             figure.subplots_adjust(wspace=0.32)
             _draw_parts(left, dict(series)[shown])
             _draw_types(right, kept, tokens, "|sum - sum at the start| (J)", True)
             caption = _CAPTION % (scene, shown)
         else:
-            figure, axes = pyplot.subplots(figsize=(5.0, 3.2))
+            figure, axes = pyplot.subplots(figsize=(figure_style.width(5.0), 3.2))
             held = [
                 (t, c, next(n for n in energy_account.KINETIC if n in c))
                 for t, c in series

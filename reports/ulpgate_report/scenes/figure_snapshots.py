@@ -6,7 +6,7 @@ import numpy
 from matplotlib import pyplot
 from matplotlib.collections import EllipseCollection
 
-from ulpgate_report.figures import figure_style  # noqa: F401  (sets the look)
+from ulpgate_report.figures import figure_style
 
 FAMILY = "snapshots"
 _CAPTION = (
@@ -89,11 +89,12 @@ def _draw(panels, times):
     rows = math.ceil(len(panels) / columns)
     x_limits, y_limits = _limits(panels)
     aspect = (y_limits[1] - y_limits[0]) / (x_limits[1] - x_limits[0])
-    height = _PANEL_INCHES * min(2.0, max(0.4, aspect))
+    panel = figure_style.width(columns * _PANEL_INCHES) / columns
+    height = panel * min(2.0, max(0.4, aspect))
     figure, grid = pyplot.subplots(
         rows,
         columns,
-        figsize=(columns * _PANEL_INCHES, rows * height),
+        figsize=(columns * panel, rows * height),
         squeeze=False,
         sharex=True,
         sharey=True,
@@ -109,6 +110,9 @@ def _draw(panels, times):
         _draw_panel(axes, found, norm)
     for axes in list(grid.flat)[len(panels) :]:
         axes.remove()
+    if figure_style.is_one_column():
+        for axes in grid.flat[: len(panels)]:
+            axes.locator_params(axis="x", nbins=3, prune="both")
     for axes in grid[-1]:
         axes.set_xlabel("x (m)")
     for axes in grid[:, 0]:

@@ -4,6 +4,7 @@ import math
 from matplotlib import pyplot
 from matplotlib.patches import Polygon, Rectangle
 
+from ulpgate_report.figures import figure_style
 from ulpgate_report.figures.heat_grid import ROW_INCHES as _ROW
 from ulpgate_report.stability import verdicts
 
@@ -28,7 +29,8 @@ def _shortened(name):
 
 def blocks(cases):
     """The cases in columns of at most _ROWS_OF_ONE_BLOCK, about equally long."""
-    count = math.ceil(len(cases) / _ROWS_OF_ONE_BLOCK)
+    rows = len(cases) if figure_style.is_one_column() else _ROWS_OF_ONE_BLOCK
+    count = math.ceil(len(cases) / rows)
     each = math.ceil(len(cases) / count)
     return [cases[start : start + each] for start in range(0, len(cases), each)]
 

@@ -37,6 +37,12 @@ def escape(text):
     return "".join(_SPECIAL.get(c, c) for c in plain)
 
 
+def escape_code(text):
+    """The same in typewriter type, which has the signs of less and greater where others have none."""
+    plain = escape(text)
+    return plain.replace(r"\textless{}", "<").replace(r"\textgreater{}", ">")
+
+
 def _number(text):
     if text in ("inf", "-inf"):
         return r"$-\infty$" if text[0] == "-" else r"$\infty$"
@@ -49,7 +55,7 @@ def _text(cell, kind):
     if kind in cell_text.NUMERIC_KINDS:
         shown = "--" if value is None else _number(shown)
     elif kind in cell_text.CODE_KINDS:
-        shown = rf"\texttt{{{escape(shown)}}}"
+        shown = rf"\texttt{{{escape_code(shown)}}}"
     else:
         shown = escape(shown)
     return shown + rf"\textsuperscript{{{escape(mark)}}}" if mark else shown

@@ -3,7 +3,7 @@ import re
 
 from matplotlib.lines import Line2D
 
-from ulpgate_report.figures import type_style
+from ulpgate_report.figures import figure_style, type_style
 from ulpgate_report.work_precision import axes, settings
 
 FAMILY = "work_precision"
@@ -205,6 +205,17 @@ def type_handle(token, tokens, label=None, linestyle="none"):
 def draw_legend(plot, handles, pair):
     """A legend right of the plot, and of the names of floors there; the front's entry comes last."""
     front = Line2D([], [], label="Pareto front", **_FRONT)
+    if figure_style.is_one_column():
+        plot.legend(
+            handles=[*handles, front],
+            loc="lower left",
+            bbox_to_anchor=(-0.1, 1.0 if not has_error_on(pair, 0) else 1.14),
+            ncol=3,
+            columnspacing=0.8,
+            handlelength=1.8,
+            fontsize=6.5,
+        )
+        return
     plot.legend(
         handles=[*handles, front],
         loc="center left",

@@ -165,7 +165,7 @@ def _panel_legend(figure, ranking, bottom):
         handles=handles,
         loc="upper center",
         bbox_to_anchor=(0.5, bottom),
-        ncol=4,
+        ncol=2 if figure_style.is_one_column() else 4,
         columnspacing=1.4,
         handlelength=2.8,
         fontsize=6.8,
@@ -174,26 +174,38 @@ def _panel_legend(figure, ranking, bottom):
 
 def _draw_with_panels(measured, rows, pair, ranking):
     tokens = [t for t in measured.type_tokens if any(r["type"] == t for r in rows)]
-    panel_rows = math.ceil(len(tokens) / _COLUMNS)
+    narrow = figure_style.is_one_column()
+    columns = 2 if narrow else _COLUMNS
+    panel_rows = math.ceil(len(tokens) / columns)
     height = _TOP + _PANEL * panel_rows
-    figure = pyplot.figure(figsize=(_WIDTH, height))
+    width = figure_style.COLUMN_INCHES if narrow else _WIDTH
+    figure = pyplot.figure(figsize=(width, height))
+    # In one column the legend stands above the plot, right of it else.
+    shape = [0.14, 0.62, 0.80] if narrow else [0.09, 0.75, 0.68]
     plot = figure.add_axes(
-        [0.09, 1 - (_TOP - 0.75) / height, 0.68, (_TOP - 1.0) / height]
+        [shape[0], 1 - (_TOP - shape[1]) / height, shape[2], (_TOP - 1.35) / height]
+        if narrow
+        else [shape[0], 1 - (_TOP - shape[1]) / height, shape[2], (_TOP - 1.0) / height]
     )
     here = _draw_overview(plot, measured, rows, pair, {})
     _overview_legend(plot, measured, here, {}, pair)
     places = {name: place for place, name in enumerate(ranking)}
-    each = 0.91 / _COLUMNS
+    each = 0.91 / columns
     for index, token in enumerate(tokens):
-        bottom = height - _TOP - _PANEL * (index // _COLUMNS + 1) + 0.62
-        left = 0.09 + each * (index % _COLUMNS)
-        shape = [left, bottom / height, each - 0.065, (_PANEL - 0.75) / height]
+        bottom = height - _TOP - _PANEL * (index // columns + 1) + 0.62
+        left = 0.09 + each * (index % columns)
+        shape = [
+            left,
+            bottom / height,
+            each - (0.1 if narrow else 0.065),
+            (_PANEL - 0.75) / height,
+        ]
         panel = figure.add_axes(shape)
         mine = [row for row in rows if row["type"] == token]
         _draw_panel(panel, measured, mine, pair, places)
-        if index % _COLUMNS:
+        if index % columns:
             panel.set_ylabel("")
-        if index < len(tokens) - _COLUMNS:
+        if index < len(tokens) - columns:
             panel.set_xlabel("")
     _panel_legend(figure, ranking, 0.2 / height)
     return figure
@@ -206,7 +218,7 @@ def _draw(measured, rows, pair):
     ranking = ranked(rows, pair)
     if len(ranking) > len(_DASHES):
         return _draw_with_panels(measured, rows, pair, ranking), True
-    figure, plot = pyplot.subplots(figsize=(5.6, 3.8))
+    figure, plot = pyplot.subplots(figsize=(figure_style.width(5.6), 3.8))
     dashes = dict(zip(ranking, _DASHES))
     here = _draw_overview(plot, measured, rows, pair, dashes)
     _overview_legend(plot, measured, here, dashes, pair)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from matplotlib import patheffects, pyplot
 from matplotlib.lines import Line2D
 
-from ulpgate_report.figures import type_style
+from ulpgate_report.figures import figure_style, type_style
 from ulpgate_report.work_precision import axes, drawing, figure_curves, settings
 
 PART = "fits"
@@ -206,18 +206,21 @@ def _shown(measured, rows, found):
         name for (name, _), law in found.items() if law.fit["residual"] is not None
     }
     fitted = [one for one in ranking if one in with_law]
-    return fitted[:_MOST_PANELS], max(0, len(fitted) - _MOST_PANELS)
+    most = _MOST_PANELS - figure_style.is_one_column()
+    return fitted[:most], max(0, len(fitted) - most)
 
 
 def _draw(measured, rows, found, quantity, shown):
-    columns = min(_COLUMNS, len(shown))
+    columns = min(2 if figure_style.is_one_column() else _COLUMNS, len(shown))
     lines = math.ceil(len(shown) / columns)
     here = [t for t in measured.type_tokens if any(r["type"] == t for r in rows)]
     # One panel alone is large enough for a legend beside it.
     size = (3.6, 3.0) if len(shown) == 1 else _PANEL
+    if figure_style.is_one_column():
+        size = (figure_style.COLUMN_INCHES / columns, size[1])
     below = 0.75
     width, height = columns * size[0], lines * size[1] + below
-    figure = pyplot.figure(figsize=(max(width, 5.0), height))
+    figure = pyplot.figure(figsize=(max(width, figure_style.width(5.0)), height))
     width = figure.get_size_inches()[0]
     for index, integrator in enumerate(shown):
         left = (index % columns) * size[0] + 0.55
@@ -237,7 +240,7 @@ def _draw(measured, rows, found, quantity, shown):
         handles=_handles(measured, here),
         loc="upper center",
         bbox_to_anchor=(0.5, (below - 0.2) / height),
-        ncol=4,
+        ncol=figure_style.legend_columns(4),
         columnspacing=1.4,
         handlelength=2.2,
     )

@@ -4,7 +4,7 @@ import statistics
 
 from matplotlib import pyplot
 
-from ulpgate_report.figures import type_style
+from ulpgate_report.figures import figure_style, type_style
 from ulpgate_report.values import numbers
 from ulpgate_report.work_precision import axes, drawing, settings
 
@@ -106,7 +106,7 @@ def _draw(measured, rows, pair):
     scales = drawing.scales_of(rows, pair, drawing.floors_of(measured, here))
     if scales is None:
         return None
-    figure, plot = pyplot.subplots(figsize=(_WIDTH, 4.2))
+    figure, plot = pyplot.subplots(figsize=(figure_style.width(_WIDTH), 4.2))
     drawing.draw_axes(plot, rows, pair, scales)
     drawing.draw_floors(plot, measured, here, pair, scales)
     _draw_lines(plot, rows, pair, scales)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds ulpgate against the packaged YADE in one run: the pendulum bit for bit, the deposition's speed.
 
-scripts/compare_yade.py [--ulpgate PROGRAM] [--pendulum-steps N] [--deposition-steps N] [--threads N] [--repeats N]
+scripts/peers/compare_yade.py [--ulpgate PROGRAM] [--pendulum-steps N] [--deposition-steps N] [--threads N] [--repeats N]
 
 Exit codes: 0 the trajectories are equal, 1 they are not, 3 there is no `yade` on this machine (Debian's package).
 """
@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PEERS = ROOT / "scripts/peers"
 
 

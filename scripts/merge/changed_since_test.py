@@ -149,10 +149,10 @@ def test_what_cannot_be_asked_is_said(small_build):
 @pytest.fixture
 def gate_of(small_build):
     """ci/gate over a program that only notes what it is asked to measure."""
-    for place in ("ci/gate", "scripts/changed_since.py", "scripts/pendulum"):
+    for place in ("ci/gate", "scripts/merge/changed_since.py", "scripts/pendulum"):
         there = small_build / place
-        there.parent.mkdir(exist_ok=True)
-        shutil.copy(pathlib.Path(__file__).parents[1] / place, there)
+        there.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(pathlib.Path(__file__).parents[2] / place, there)
     asked = small_build / "build/asked"
     program = small_build / "build/harness/app/ulpgate"
     program.parent.mkdir(parents=True)

@@ -1,6 +1,6 @@
 """What of the gate the files changed since a revision can affect, from the build's own dependency files.
 
-    scripts/changed_since.py REV [--build DIR]
+    scripts/merge/changed_since.py REV [--build DIR]
 
 Prints one line: `all`, `nothing`, or types and parts, such as `types=float,double parts=math,stress`, and on stderr why.  A
 file that no object of the program depends on, and that no test or budget is, affects nothing; whatever is not known for
@@ -13,7 +13,7 @@ import re
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Objects of one type -> the parts of the gate whose results they compute.
 TYPED = {
     "function_table": {"math"},
@@ -125,7 +125,7 @@ def affected(changed, depends, types):
 
 def main(words):
     p = argparse.ArgumentParser(
-        prog="scripts/changed_since.py",
+        prog="scripts/merge/changed_since.py",
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -1,0 +1,187 @@
+"""What is wrong in which library, from the records alone, each with the command that shows it."""
+from dataclasses import dataclass
+
+from ulpgate_report.math import tables as math_tables
+from ulpgate_report.records.pendulum_records import HALF_STEP, OWN_REFERENCE
+from ulpgate_report.values import numbers
+
+# Below this an error of a function is no finding: libraries document no less.
+LARGE_ULP = 10.0
+MASS = "mass=yade"
+# At most so many of one library, the worst first; the table of all functions has the others.
+MOST = 12
+_WORDS = {
+    "nan": "NaN where there is a value",
+    "not_nan": "a value where there is none",
+    "inf": "a wrong infinity",
+    "zero_sign": "a zero with the wrong sign",
+    "overflow_spurious": "infinity where the result is in range",
+    "overflow_missed": "a number where the result is out of range",
+    "underflow_spurious": "zero where the result is in range",
+    "nonzero_for_zero": "a number where the result is zero",
+    "exception": "an exception",
+    "crash": "a crash",
+    "hang": "no end",
+    "not_a_function": "another result on another call",
+    "lane_dependent": "another result beside other lanes",
+    "environment": "a changed floating-point environment",
+}
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One: the library, the function or symbol, in which type, what was seen, and the command that shows it."""
+
+    library: str
+    subject: str
+    type: str
+    says: str
+    command: str
+    # What stands first in its library: real functions before special and complex ones, then the larger.
+    order: tuple
+
+
+# A result that is no number at all is worse than any wrong one that a double can tell.
+_CLASSES = ("real", "special", "complex")
+
+
+def _version(context, name):
+    version = context.get("libraries", {}).get(name)
+    return f"{name} {version}" if isinstance(version, str) else name
+
+
+def library_of(context, row, token):
+    """Whose code computes a function in a type."""
+    wide = token.startswith(("mpfr", "cpp_bin_float"))
+    if row.function_class == "special":
+        return _version(context, "Boost") + " (Math)"
+    if token == "float128":
+        return "libquadmath"
+    if not wide:
+        return _version(context, "glibc")
+    if token.startswith("mpfr") and row.function_class == "real":
+        return _version(context, "MPFR") + " through Boost.Multiprecision"
+    return _version(context, "Boost") + " (Multiprecision)"
+
+
+def _seen(cell):
+    parts = []
+    weight = 0.0
+    if cell.max_ulp is not None and numbers.larger(cell.max_ulp, LARGE_ULP):
+        parts.append(f"errs by {numbers.short_ulp(cell.max_ulp)} ULP")
+        weight = float(min(cell.max_ulp, 1e300))
+    for name, count in cell.mismatch.items():
+        parts.append(
+            f"{_WORDS.get(name, name.replace('_', ' '))} at {count} of {cell.samples} arguments"
+        )
+        weight = max(weight, 1e6 * count / cell.samples)
+    return parts, weight
+
+
+def of_functions(combined):
+    """Findings of a run of functions."""
+    first = {}
+    for record in combined.records:
+        key = (record["function"], record["part"], record["type"])
+        for name, args in record.get("mismatch_first", {}).items():
+            if record["mismatch"].get(name):
+                first.setdefault(key, tuple(args))
+    found = []
+    for (row, token), cell in combined.cells.items():
+        parts, weight = _seen(cell)
+        if not parts:
+            continue
+        by_error = cell.max_ulp is not None and numbers.larger(cell.max_ulp, LARGE_ULP)
+        args = cell.argmax if by_error else ()
+        args = args or first.get((row.function, row.part, token), ())
+        found.append(
+            Finding(
+                library_of(combined.context, row, token),
+                row.label,
+                token,
+                "; ".join(parts),
+                math_tables.command_of(row, token, args) if args else "",
+                (_CLASSES.index(row.function_class), -weight),
+            )
+        )
+    return found
+
+
+def of_claims(rows):
+    """Findings of documented bounds that do not hold."""
+    found = []
+    for one in rows:
+        if one["holds"]:
+            continue
+        error = numbers.measured(one["largest_ulp"])
+        parts = []
+        if error is not None and numbers.larger(error, one["claim_ulp"]):
+            parts.append(
+                f"errs by {numbers.short_ulp(error)} ULP where {one['claim_ulp']} is documented"
+            )
+        parts += [
+            f"{_WORDS.get(m['outcome'], m['outcome'].replace('_', ' '))} at {m['count']} arguments"
+            for m in one["mismatches"]
+        ]
+        args = one["args"] or next((m["args"] for m in one["mismatches"]), [])
+        library = one["implementation"].split()[0] if one["implementation"] else ""
+        command = " ".join(["ulpgate at", one["function"], one["type"], *args])
+        found.append(
+            Finding(
+                library.rsplit("/", 1)[-1],
+                one["symbol"],
+                one["type"],
+                "; ".join(parts),
+                f"{command} --library {library.rsplit('/', 1)[-1]} --symbol {one['symbol']}",
+                (0, -float(min(error or 0, 1e300))),
+            )
+        )
+    return found
+
+
+def _durations(pendulum):
+    """{(scene, dt, type): (t_s with the exact mass, t_s with that of YADE)} where both were run."""
+    found = {}
+    for row in pendulum.correlations:
+        if row["against"] in (OWN_REFERENCE, HALF_STEP):
+            continue
+        variant = row.get("variant", "")
+        if variant in ("", MASS):
+            key = (row["scene"], str(row["dt"]), row["type"])
+            found.setdefault(key, {})[variant] = row
+    return {key: of for key, of in found.items() if len(of) == 2}
+
+
+def of_pendulum(pendulum):
+    """A constant good to 16 digits in runs of more: they leave the true solution where double's rounding would."""
+    found = []
+    for (scene, dt, token), of in _durations(pendulum).items():
+        exact, contaminated = of[""]["t_s"], of[MASS]["t_s"]
+        if contaminated >= exact or of[MASS]["to_the_end"]:
+            continue
+        found.append(
+            Finding(
+                "YADE",
+                "mass of the pendulum's nodes",
+                token,
+                f"4/3 and pi are taken in double on the way to the mass: at a step of {dt} s the run stays with its own 150 digits for "
+                f"{contaminated:.2f} s, with the exact mass for {exact:.2f} s",
+                f"ulpgate scene ladder {scene} --types {token} --set {MASS}",
+                (0, contaminated - exact),
+            )
+        )
+    return found
+
+
+def by_library(findings):
+    """[(library, [findings of one subject, the worst first], how many subjects more)]."""
+    grouped = {}
+    for one in findings:
+        of = grouped.setdefault(one.library, {})
+        of.setdefault(one.subject, []).append(one)
+    found = []
+    for library, of in grouped.items():
+        subjects = [sorted(same, key=lambda f: f.order) for same in of.values()]
+        subjects.sort(key=lambda same: same[0].order)
+        found.append((library, subjects[:MOST], max(0, len(subjects) - MOST)))
+    return found

@@ -1,0 +1,131 @@
+"""LaTeX of the paper: a table or figure as a fragment for `\\input`, findings, and the document of all of them."""
+import struct
+
+from ulpgate_report.tables import cell_text, table_latex
+
+TEXT_WIDTH_MM, FIGURE_HEIGHT_MM = 183.0, 205.0
+_MM_PER_INCH = 25.4
+
+_HEAD = r"""\documentclass[a4paper,10pt]{article}
+\usepackage[utf8]{inputenc}
+\usepackage[textwidth=183mm,textheight=257mm]{geometry}
+\usepackage{array,booktabs,longtable,pdflscape,graphicx,siunitx}
+\usepackage[font=footnotesize,labelfont=bf,skip=4pt]{caption}
+\usepackage[hidelinks]{hyperref}
+\pdfinfoomitdate=1
+\pdftrailerid{}
+\pdfsuppressptexinfo=-1
+\setlength{\parindent}{0pt}
+\setlength{\emergencystretch}{3em}
+\title{Numerical accuracy, measured}
+\author{made by \texttt{scripts/paper} of ulpgate %s}
+\date{}
+\begin{document}
+\maketitle
+%s
+"""
+_TAIL = "\\end{document}\n"
+
+
+def tex_command(text, every=6):
+    """Typewriter text that may break anywhere, whole: a command is there to be copied."""
+    pieces = [text[i : i + every] for i in range(0, len(text), every)]
+    return (
+        r"\texttt{" + r"\allowbreak{}".join(map(table_latex.escape_code, pieces)) + "}"
+    )
+
+
+def caption(said):
+    """A caption whose text between backquotes is a command."""
+    parts = said.split("`")
+    return "".join(
+        tex_command(part) if place % 2 else table_latex.escape(part)
+        for place, part in enumerate(parts)
+    )
+
+
+def _column_mm(column, cells):
+    """About how wide a column is in the small type of tables."""
+    if column.kind == "prose":
+        return float(table_latex.PROSE_MM)
+    texts = [column.title]
+    for cell in cells:
+        _, mark = cell_text.value_and_mark(cell)
+        shown = cell_text.short(cell, column.kind, table_latex.ARGUMENT_DIGITS)
+        # A power of ten is set out: 1.2 x 10^-5.
+        longer = 4 * ("e" in shown and column.kind in cell_text.NUMERIC_KINDS)
+        texts.append(shown + mark + " " * longer)
+    each = 1.32 if column.kind in cell_text.CODE_KINDS else 1.2
+    return max(map(len, texts)) * each
+
+
+def is_wide(found):
+    """Whether the table needs a page on its side."""
+    gaps = 2.2 * len(found.columns)
+    columns = zip(found.columns, zip(*found.rows))
+    return sum(_column_mm(c, cells) for c, cells in columns) + gaps > TEXT_WIDTH_MM
+
+
+def table(found):
+    """The table; one too wide for the page is turned."""
+    text = table_latex.render(found)
+    # Commands in a caption may break between any two letters.
+    plain = table_latex.escape(found.caption)
+    text = text.replace(plain, caption(found.caption))
+    if is_wide(found):
+        return f"\\begin{{landscape}}\n{text}\\end{{landscape}}\n"
+    return text
+
+
+def inches(png, dots_per_inch):
+    """Width and height of a picture."""
+    width, height = struct.unpack(">II", png[16:24])
+    return width / dots_per_inch, height / dots_per_inch
+
+
+def figure(name, said, png, dots_per_inch):
+    """The figure at its own size, smaller where the page asks for it."""
+    width, height = (s * _MM_PER_INCH for s in inches(png, dots_per_inch))
+    scale = min(1.0, TEXT_WIDTH_MM / width, FIGURE_HEIGHT_MM / height)
+    return "\n".join(
+        (
+            r"\begin{figure}[htbp]",
+            r"\centering",
+            rf"\includegraphics[width={width * scale:.1f}mm]{{figures/{name}.pdf}}",
+            rf"\caption{{{caption(said)}}}\label{{fig:{name}}}",
+            r"\end{figure}",
+            "",
+        )
+    )
+
+
+def findings(by_library):
+    """A list a library, each finding with its command."""
+    lines = []
+    for library, found, more in by_library:
+        lines.append(rf"\subsection*{{{table_latex.escape(library)}}}")
+        lines.append(r"\begin{itemize}\setlength{\itemsep}{1pt}\small\raggedright")
+        for same in found:
+            worst = same[0]
+            command = f" {tex_command(worst.command)}" if worst.command else ""
+            types = ", ".join(one.type for one in same)
+            lines.append(
+                rf"\item \texttt{{{table_latex.escape_code(worst.subject)}}} ({table_latex.escape(types)}): "
+                rf"in {table_latex.escape(worst.type)} {table_latex.escape(worst.says)}.{command}"
+            )
+        if more:
+            lines.append(rf"\item and {more} more, in \texttt{{data/findings.csv}}.")
+        lines.append(r"\end{itemize}")
+    return "\n".join([*lines, ""])
+
+
+def document(version, abstract, chapters):
+    """The whole; a chapter is (title, what it says, names of its fragments)."""
+    lines = []
+    for title, says, inputs in chapters:
+        lines.append(rf"\section{{{table_latex.escape(title)}}}")
+        lines.append(caption(says) + "\n")
+        lines += [rf"\input{{{name}}}" for name in inputs]
+        lines.append(r"\clearpage")
+    head = _HEAD % (table_latex.escape(version), caption(abstract))
+    return head + "\n".join(lines) + "\n" + _TAIL

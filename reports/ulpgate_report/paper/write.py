@@ -1,0 +1,189 @@
+"""Writes a paper: tables, figures at two widths, every number plotted, findings, the document and its manifest."""
+import csv
+import dataclasses
+import hashlib
+import io
+import json
+
+from ulpgate_report.app import build, output
+from ulpgate_report.figures import figure_style, plotted
+from ulpgate_report.paper import findings, fragments, provenance, source, tables
+from ulpgate_report.math import kind as kind_math
+from ulpgate_report.pendulum import kind as kind_pendulum
+from ulpgate_report.tables import table_csv
+
+MANIFEST = "data/manifest.json"
+COLUMN = "_column"
+# What is larger in one column is no figure for a column: heat maps of all functions, say.
+MOST_COLUMN_INCHES = (3.7, 9.6)
+
+
+class Writer:
+    """Writes files below a folder and notes the checksum of each."""
+
+    def __init__(self, out):
+        self.out = out
+        self.files = {}
+
+    def text(self, name, text):
+        """Write a text file."""
+        self.data(name, text.encode("utf-8"))
+
+    def data(self, name, content):
+        """Write a file."""
+        output.write_bytes(self.out / name, content)
+        self.files[name] = hashlib.sha256(content).hexdigest()
+
+
+def _csv(columns, rows):
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def _own_tables(one):
+    """Tables that only the paper has, of a chapter's run."""
+    data = dict(one.parts).get(kind_math)
+    if data is None:
+        return []
+    return [tables.types(one.context), tables.beside_published(data)]
+
+
+def _tables_of(one):
+    """{name: table} of a chapter."""
+    found = {table.name: table for table in _own_tables(one)}
+    for kind, data in one.parts:
+        for make, formats in kind.TABLES:
+            table = make(data)
+            found[table.name] = table
+    return found
+
+
+def _write_table(writer, table, said, prefix):
+    name = f"{prefix}{table.name}"
+    whole = dataclasses.replace(table, name=name, caption=table.caption + said)
+    writer.text(f"tables/{name}.tex", fragments.table(whole))
+    writer.text(f"data/{name}.csv", table_csv.render(table))
+    return f"tables/{name}.tex"
+
+
+def _fits_column(png):
+    width, height = fragments.inches(png, figure_style.PNG_DOTS_PER_INCH)
+    return width <= MOST_COLUMN_INCHES[0] and height <= MOST_COLUMN_INCHES[1]
+
+
+def _figures_of(one, prefix):
+    """(name in the paper, caption, figure) of a chapter, drawn at the width that is in force."""
+    for kind, data in one.parts:
+        for name, caption, figure in build.drawn_of(kind, data):
+            if name.startswith(one.chapter.figures):
+                yield name if name.startswith(
+                    prefix
+                ) else prefix + name, caption, figure
+            else:
+                figure_style.pyplot.close(figure)
+
+
+def _write_figures(writer, one, said, prefix, tell):
+    """All figures of a chapter at both widths, with the numbers they show; returns their fragments."""
+    inputs = []
+    for name, caption, figure in _figures_of(one, prefix):
+        tell(f"{one.chapter.run}: {name}")
+        files = figure_style.render(figure, name)
+        writer.text(f"data/{name}.csv", _csv(plotted.COLUMNS, plotted.of(figure)))
+        for suffix, content in files.items():
+            writer.data(f"figures/{name}.{suffix}", content)
+        dots = figure_style.PNG_DOTS_PER_INCH
+        fragment = fragments.figure(name, caption + said, files["png"], dots)
+        writer.text(f"figures/{name}.tex", fragment)
+        writer.text(f"figures/{name}.caption.txt", caption + said + "\n")
+        inputs.append(f"figures/{name}.tex")
+    with figure_style.one_column():
+        for name, _, figure in _figures_of(one, prefix):
+            files = figure_style.render(figure, name + COLUMN)
+            if not _fits_column(files["png"]):
+                tell(f"{one.chapter.run}: {name} is for a whole page alone")
+                continue
+            for suffix, content in files.items():
+                writer.data(f"figures/{name}{COLUMN}.{suffix}", content)
+    return inputs
+
+
+def _chapter(writer, one, command, tell):
+    """Write a chapter's fragments; returns their names."""
+    chapter = one.chapter
+    said = provenance.sentence(one.context, command)
+    # Kinds share names of tables and figures between runs of scenes.
+    prefix = "" if chapter.run == "math" else f"{chapter.run}_"
+    found = _tables_of(one)
+    inputs = [
+        _write_table(writer, found[name], said, prefix)
+        for name in chapter.tables
+        if name in found and found[name].rows
+    ]
+    return inputs + _write_figures(writer, one, said, prefix, tell)
+
+
+def _write_findings(writer, runs, sources):
+    found = []
+    for one in sources:
+        data = dict(one.parts)
+        if kind_math in data:
+            found += findings.of_functions(data[kind_math])
+        if kind_pendulum in data:
+            found += findings.of_pendulum(data[kind_pendulum])
+    for rows in source.claims(runs).values():
+        found += findings.of_claims(rows)
+    columns = ("library", "subject", "type", "says", "command")
+    rows = [(f.library, f.subject, f.type, f.says, f.command) for f in found]
+    writer.text("data/findings.csv", _csv(columns, rows))
+    writer.text("findings.tex", fragments.findings(findings.by_library(found)))
+    return found
+
+
+def _write_claims(writer, runs, commands):
+    inputs = []
+    for library, rows in source.claims(runs).items():
+        table = tables.claims(rows)
+        name = f"claims_{library}"
+        said = f" {library}."
+        if f"claims/{library}" in commands:
+            said += f" Command: `{commands[f'claims/{library}']}`."
+        renamed = dataclasses.replace(table, name=name)
+        inputs.append(_write_table(writer, renamed, said, ""))
+    return inputs
+
+
+def write(runs, out, history=None, tell=lambda _: None):
+    """Write the paper of the runs; returns sentences about what is left out."""
+    sources, left_out = source.load(runs, history)
+    commands = provenance.commands_of(runs)
+    writer = Writer(out)
+    chapters = []
+    for one in sources:
+        command = commands.get(one.chapter.run, "")
+        inputs = _chapter(writer, one, command, tell)
+        if one.chapter.run == "libraries":
+            inputs += _write_claims(writer, runs, commands)
+        chapters.append((one.chapter.title, one.chapter.says, inputs))
+    found = _write_findings(writer, runs, sources)
+    if found:
+        says = (
+            f"{len(found)} findings from the records above: results of the wrong kind, errors beyond {findings.LARGE_ULP:g} ULP, documented bounds that "
+            "do not hold; each with the command that shows it. Some errors are what a library promises and no more; none is what a user expects."
+        )
+        chapters.append(("Findings", says, ["findings.tex"]))
+    context = sources[0].context
+    version = context.get("tool", {}).get("version", "")
+    abstract = (
+        f"Every number is from records that stand beside this document; `scripts/paper --check` traces each to its record. "
+        f"Made on {provenance.machine(context)}."
+    )
+    if left_out:
+        abstract += " Left out: " + " ".join(left_out)
+    writer.text("paper.tex", fragments.document(version, abstract, chapters))
+    manifest = {"commands": commands, "files": dict(sorted(writer.files.items()))}
+    output.write_text(out / MANIFEST, json.dumps(manifest, indent=1) + "\n")
+    return left_out

@@ -1,0 +1,126 @@
+"""What a run is held to: findings of the gate, and the rows that are others than in an earlier run."""
+import json
+from dataclasses import dataclass
+
+from ulpgate_report.kernels import combine as combine_kernels
+from ulpgate_report.math import combine as combine_math
+from ulpgate_report.records.errors import InvalidInput
+from ulpgate_report.values import numbers
+
+# A finding of this kind is no failure: a limit that could be lower.
+_NOTES = ("note",)
+_FIELDS = ("kind", "function", "type", "message")
+WORSE, BETTER, NEW, GONE = "worse", "better", "new", "gone"
+
+
+@dataclass(frozen=True)
+class Change:
+    """A row that is another than before; errors are None where the row was not there or nothing was judged."""
+
+    label: str
+    type: str
+    change: str
+    before: object
+    after: object
+    wrong_before: int
+    wrong_after: int
+    command: object
+
+
+@dataclass(frozen=True)
+class Standing:
+    """`findings` are None where no gate was asked, `changes` where there is no earlier run."""
+
+    findings: object
+    changes: object
+    rows: int
+    before: dict
+    wrong_kind: int
+
+    @property
+    def failures(self):
+        """What the gate holds against the run."""
+        notes = (f for f in self.findings or () if f["kind"].lower() not in _NOTES)
+        return list(notes)
+
+    def of_change(self, change):
+        """The changes of one sort."""
+        return [one for one in self.changes or () if one.change == change]
+
+
+def load_gate(path):
+    """The findings in a file that `ulpgate gate --json` printed."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InvalidInput(f"{path}: {error.strerror}") from error
+    except ValueError as error:
+        raise InvalidInput(f"{path}: {error}") from error
+    good = isinstance(found, list) and all(
+        isinstance(f, dict) and all(isinstance(f.get(k), str) for k in _FIELDS)
+        for f in found
+    )
+    if not good:
+        raise InvalidInput(f"{path}: not what `ulpgate gate --json` prints")
+    return found
+
+
+def _cells(run):
+    """{(row, type): (largest error, wrong kinds, argument)} of functions and kernels."""
+    found = {}
+    if run.math:
+        for key, cell in combine_math.combine_run(run).cells.items():
+            found[key] = (cell.max_ulp, cell.mismatches, cell.argmax)
+    if run.kernels:
+        for key, cell in combine_kernels.combine_run(run).cells.items():
+            found[key] = (cell.max_ulp, cell.mismatches, cell.normwise_argmax)
+    return found
+
+
+def _change(old, new):
+    """WORSE, BETTER or None of a row that both runs have; results of the wrong kind weigh more than errors."""
+    if old[1] != new[1]:
+        return WORSE if new[1] > old[1] else BETTER
+    if old[0] == new[0]:
+        return None
+    return WORSE if numbers.larger(new[0], old[0]) else BETTER
+
+
+def _changes(old, new):
+    found = []
+    for key in dict.fromkeys([*new, *old]):
+        row, token = key
+        before, after = old.get(key), new.get(key)
+        if before and after:
+            change = _change(before, after)
+        else:
+            change = NEW if after else GONE
+        if change is None:
+            continue
+        args = (after or before)[2]
+        command = " ".join(("ulpgate at", row.function, token, *args))
+        found.append(
+            Change(
+                row.label,
+                token,
+                change,
+                before and before[0],
+                after and after[0],
+                before[1] if before else 0,
+                after[1] if after else 0,
+                command if args else None,
+            )
+        )
+    order = (WORSE, GONE, NEW, BETTER)
+    return sorted(found, key=lambda one: order.index(one.change))
+
+
+def of(run):
+    """The standing of a run; None where it has neither functions nor kernels."""
+    if not (run.math or run.kernels):
+        return None
+    cells = _cells(run)
+    changes = None if run.before is None else _changes(_cells(run.before), cells)
+    wrong = sum(cell[1] for cell in cells.values())
+    before = {} if run.before is None else run.before.context
+    return Standing(run.gate, changes, len(cells), before, wrong)
