@@ -43,15 +43,17 @@ class ClaimedCode final : public BatchCode {
     auto* y = static_cast<Real*>(results);
     const auto arity = static_cast<std::size_t>(function_.arity);
     std::vector<std::size_t> beyond;
+    std::vector<std::size_t> small;
     for (std::size_t i = 0; i < count; ++i) {
       if (threw[i] != 0) continue;
       if (!inside(x + i * arity)) {
         beyond.push_back(i);
       } else if (bounds_.floor > 0 && !(magnitude(y[i]) >= reach())) {
-        replace_within_floor(x + i * arity, y[i]);
+        small.push_back(i);
       }
     }
     replace(x, y, beyond);
+    replace_within_floor(x, y, small);
   }
   double call(const void* args, void* results, std::size_t count, int rounds) const override {
     return code_.call(args, results, count, rounds);
@@ -85,6 +87,55 @@ class ClaimedCode final : public BatchCode {
     return std::move(value.front());
   }
 
+  // Of an erfc that is half of all floats: those whose error is clearly within the floor, or clearly not,
+  // need no MPFR.
+  void replace_within_floor(const Real* x, Real* y, const std::vector<std::size_t>& points) const {
+    if (points.empty()) return;
+    const auto arity = static_cast<std::size_t>(function_.arity);
+    if constexpr (!std::is_void_v<Wide>) {
+      if (const auto function = bounded_function<Wide>(function_.id); function != nullptr) {
+        const auto [values, bounds] = wide_values(function, x, points);
+        for (std::size_t p = 0; p < points.size(); ++p) {
+          const std::size_t i = points[p];
+          if (!settle_within_floor(y[i], values[p], bounds[p])) replace_within_floor(x + i * arity, y[i]);
+        }
+        return;
+      }
+    }
+    for (const auto i : points) replace_within_floor(x + i * arity, y[i]);
+  }
+
+  // False where `value` and its bound in ulp of its type do not tell.
+  template <class W>
+  [[nodiscard]] bool settle_within_floor(Real& y, W value, double bound) const {
+    constexpr double trusted = 16;
+    if (!(bound >= 0 && bound <= trusted) || value - value != 0 || !std::isfinite(y)) return false;
+    using L = std::numeric_limits<W>;
+    // Two ulp more for the difference and for what is set off here.
+    const W slack = (static_cast<W>(bound) + 2) * (std::fabs(value) * L::epsilon() + L::denorm_min());
+    const W error = std::fabs(static_cast<W>(y) - value);
+    const auto floor = static_cast<W>(bounds_.floor);
+    const W margin = slack + floor * static_cast<W>(0x1p-40);
+    if (error + margin <= floor) {
+      y = static_cast<Real>(value);
+      return true;
+    }
+    return error - margin > floor;
+  }
+
+  template <class Function>
+  [[nodiscard]] auto wide_values(Function function, const Real* x,
+                                 const std::vector<std::size_t>& points) const {
+    const auto arity = static_cast<std::size_t>(function_.arity);
+    std::vector<Wide> args;
+    for (const auto i : points)
+      for (std::size_t j = 0; j < arity; ++j) args.push_back(x[i * arity + j]);
+    std::pair<std::vector<Wide>, std::vector<double>> found{points.size(), points.size()};
+    function(args.data(), found.first.data(), found.second.data(), points.size(),
+             std::numeric_limits<Real>::digits);
+    return found;
+  }
+
   void replace_within_floor(const Real* x, Real& y) const {
     const MpfrValue value = exact(x);
     if (mpfr_number_p(value.get()) == 0 || !(magnitude(y) <= std::numeric_limits<double>::max())) return;
@@ -105,12 +156,7 @@ class ClaimedCode final : public BatchCode {
     const auto arity = static_cast<std::size_t>(function_.arity);
     if constexpr (!std::is_void_v<Wide>) {
       if (const auto function = bounded_function<Wide>(function_.id); function != nullptr) {
-        std::vector<Wide> args;
-        for (const auto i : points)
-          for (std::size_t j = 0; j < arity; ++j) args.push_back(x[i * arity + j]);
-        std::vector<Wide> values(points.size());
-        std::vector<double> error(points.size());
-        function(args.data(), values.data(), error.data(), points.size(), std::numeric_limits<Real>::digits);
+        const auto [values, error] = wide_values(function, x, points);
         for (std::size_t p = 0; p < points.size(); ++p) {
           // Where little is known of it, or its zero may be a small number.
           constexpr double trusted = 16;

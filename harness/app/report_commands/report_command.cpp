@@ -11,6 +11,8 @@ struct ReportOptions {
   std::vector<std::string> directories;
   std::string out;
   bool print = false;
+  // Files and an earlier run that the page takes into account.
+  std::string gate, before, history;
   std::vector<std::string> axes;  // "X,Y" each; the report program knows the names and refuses others
 };
 
@@ -23,6 +25,9 @@ Verdict run_report(const ReportOptions& o) {
   if (!o.out.empty()) {
     options.push_back({"--out", o.out});
     for (const auto& pair : o.axes) options.back().push_back("--axes=" + pair);
+    for (const auto& [name, value] :
+         {std::pair{"--gate=", &o.gate}, {"--before=", &o.before}, {"--history=", &o.history}})
+      if (!value->empty()) options.back().push_back(name + *value);
   }
   if (o.print) options.push_back({"--print"});
   for (const auto& chosen : options) {
@@ -51,6 +56,16 @@ void add_report_command(CLI::App& app, Action& action) {
                    "X,Y: draw error against run time with these axes, again for another pair; two of error, "
                    "largest_error, energy_error, seconds, steps, evaluations, dt (without: error,seconds)")
       ->allow_extra_args(false)
+      ->needs(out);
+  report
+      ->add_option("--gate", o->gate,
+                   "what `ulpgate gate DIR --json` printed: the page says first whether the run passed")
+      ->needs(out);
+  report
+      ->add_option("--before", o->before,
+                   "directory of an earlier run: the page says which rows are others now")
+      ->needs(out);
+  report->add_option("--history", o->history, "SQLite file of `ulpgate history`: trends and steps as well")
       ->needs(out);
   report->callback([=, &action] {
     action = [=] {
