@@ -230,6 +230,8 @@ def test_a_package_of_debian(tmp_path):
     root = tmp_path / "root"
     assert run("dpkg-deb", "-x", package, root)[0] == 0
     ulpgate = root / "usr/bin/ulpgate"
+    for file in ("man/man1/ulpgate-math.1", "bash-completion/completions/ulpgate"):
+        assert (root / "usr/share" / file).is_file(), file
     words = ["at", "exp", "double", "1", "--library", "libm.so.6", "--symbol", "exp"]
     code, text = run(ulpgate, *words, cwd=tmp_path)
     assert code == 0 and "libm.so.6 exp" in text, text
