@@ -17,6 +17,7 @@ SIZES = {
         "work": ("--cases", "kepler", "--types", "float,double", "--repeats", "0"),
         "libraries": 0,
         "claims": 0,
+        "builds": False,
         "published": 0,
     },
     "quick": {
@@ -37,6 +38,7 @@ SIZES = {
         ),
         "libraries": 20000,
         "claims": 20000,
+        "builds": False,
         "published": 0,
     },
     "full": {
@@ -52,6 +54,7 @@ SIZES = {
         "work": ("--cases", "kepler,robertson", "--types", "all"),
         "libraries": 2000000,
         "claims": 200000,
+        "builds": True,
         "published": 20000000,
     },
 }
@@ -73,12 +76,32 @@ def _speed_jobs(program, types, size, cores):
         words = ("--steps", str(steps), "--repeats", str(repeats))
         words = (",".join(types), *words, "--threads", str(threads))
         yield Job(
-            f"speed/{threads}_threads",
+            f"speed/release_{threads}",
             ("-c", SPEED, "speed", program, "{out}", *words),
             program="/bin/sh",
             alone=True,
             shown=f"ulpgate scene speed deposition --types {' '.join(words)}",
         )
+
+
+# Of each build: compiler and options.  The types are those whose arithmetic a compiler makes.
+BUILDS = [(c, v) for c in ("gcc", "clang") for v in ("default", "vectorised", "native")]
+BUILT_TYPES = ("float", "double", "long_double")
+
+
+def _build_jobs(types, size, cores):
+    """The same speeds of other compilers and options."""
+    steps, repeats = size["speed"]
+    named = [t for t in BUILT_TYPES if t in types] or types[:1]
+    for compiler, variant in BUILDS if size["builds"] else ():
+        for threads in sorted({1, min(2, cores)}):
+            words = (compiler, variant, str(threads), str(steps), str(repeats))
+            yield Job(
+                f"speed/{compiler}_{variant}_{threads}",
+                ("{out}", *words, ",".join(named)),
+                program=str(ROOT / "scripts/publication/build_speed"),
+                alone=True,
+            )
 
 
 def jobs_of(program, size_name, types, seed, cores):
@@ -115,6 +138,7 @@ def jobs_of(program, size_name, types, seed, cores):
         for library in CLAIMED:
             words = ("claims", library, "--samples", str(size["claims"]))
             yield Job(f"claims/{library}", words, resumes=False)
+    yield from _build_jobs(types, size, cores)
     if size["published"]:
         native = [t for t in types if t in NATIVE]
         for token in native:

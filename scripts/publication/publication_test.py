@@ -46,7 +46,7 @@ def test_a_command_is_shown_as_people_type_it():
     shown = {job.name: paper.shown_command(job) for job in jobs}
     assert shown["math"].startswith("ulpgate math --functions all --types double")
     assert "--worst-cases ci/worst_cases" in shown["math"]
-    assert shown["speed/2_threads"] == (
+    assert shown["speed/release_2"] == (
         "ulpgate scene speed deposition --types double --steps 20 --repeats 5 --threads 2"
     )
     assert (

@@ -77,8 +77,8 @@ def _texts(axes):
 
 def _words(axes):
     """Everything written at the edges of a panel: ticks, titles, legends; ticks are those of the last drawing."""
-    written = [("tick", t.get_text()) for t in axes.get_xticklabels()]
-    written += [("tick", t.get_text()) for t in axes.get_yticklabels()]
+    ticks = [*axes.get_xticklabels(which="both"), *axes.get_yticklabels(which="both")]
+    written = [("tick", t.get_text()) for t in ticks]
     written += [("label", axes.get_xlabel()), ("label", axes.get_ylabel())]
     written.append(("label", axes.xaxis.get_offset_text().get_text()))
     written.append(("label", axes.yaxis.get_offset_text().get_text()))

@@ -40,7 +40,7 @@ CHAPTERS = (
         "Speed of a whole simulation",
         "Iterations per second of the deposition of spheres under gravity; runs beyond two standard deviations of the mean are left out.",
         ("benchmark_table",),
-        ("benchmark",),
+        ("builds",),
     ),
     Chapter(
         "deposition",

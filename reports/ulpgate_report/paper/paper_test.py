@@ -34,6 +34,9 @@ def _write_runs(runs):
         runs / "pendulum", tokens=("double", "mpfr150"), end=3.0, every=1e-2
     )
     shutil.rmtree(runs / "pendulum" / "dt_1e-6")
+    for build in ("gcc_default", "gcc_native"):
+        place = runs / "speed" / build
+        sample_scenes.write_sample(place, tokens=("float", "double"), bodies=5)
     claims = runs / "claims" / "sleef"
     claims.mkdir(parents=True)
     (claims / "claims.json").write_text(json.dumps([CLAIM]))
@@ -91,6 +94,17 @@ def test_plotted_numbers_are_those_of_the_records(paper):
     drawn = {10 ** float(r["x"]) for r in rows if r["kind"] == "line" and r["x"]}
     for time in times:
         assert any(abs(one / time - 1) < 1e-9 for one in drawn), time
+
+
+def test_speeds_of_all_builds_stand_in_one_figure(paper):
+    _, out = paper
+    with open(out / "data/speed_builds.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    legend = [r["series"] for r in rows if r["kind"] == "legend"]
+    assert legend[:2] == ["gcc default, 1 thread", "gcc default, 4 threads"]
+    timing = sample_scenes.timing_record("float")
+    heights = {r["value"] for r in rows if r["kind"] == "bar"}
+    assert repr(timing["iterations_per_s"]) in heights
 
 
 def test_what_was_not_run_is_said(paper):

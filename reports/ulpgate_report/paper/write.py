@@ -7,9 +7,17 @@ import json
 
 from ulpgate_report.app import build, output
 from ulpgate_report.figures import figure_style, plotted
-from ulpgate_report.paper import findings, fragments, provenance, source, tables
+from ulpgate_report.paper import (
+    figure_builds,
+    findings,
+    fragments,
+    provenance,
+    source,
+    tables,
+)
 from ulpgate_report.math import kind as kind_math
 from ulpgate_report.pendulum import kind as kind_pendulum
+from ulpgate_report.scenes import kind as kind_scenes
 from ulpgate_report.tables import table_csv
 
 MANIFEST = "data/manifest.json"
@@ -76,6 +84,13 @@ def _fits_column(png):
 
 def _figures_of(one, prefix):
     """(name in the paper, caption, figure) of a chapter, drawn at the width that is in force."""
+    if figure_builds.NAME in one.chapter.figures:
+        for kind, data in one.parts:
+            if kind is kind_scenes:
+                name, caption, figure = figure_builds.draw(data)
+                if figure is not None:
+                    yield prefix + name, caption, figure
+        return
     for kind, data in one.parts:
         for name, caption, figure in build.drawn_of(kind, data):
             if name.startswith(one.chapter.figures):
