@@ -18,7 +18,7 @@ SIZES = {
         "libraries": 0,
         "claims": 0,
         "builds": False,
-        "published": 0,
+        "published": 100,
     },
     "quick": {
         "functions": "all",
@@ -142,7 +142,8 @@ def jobs_of(program, size_name, types, seed, cores):
     if size["published"]:
         native = [t for t in types if t in NATIVE]
         for token in native:
-            words = ("math", "--functions", "real", "--types", token, "--allow-large")
+            names = "real" if size["functions"] == "all" else "sin"
+            words = ("math", "--functions", names, "--types", token, "--allow-large")
             words += ("--samples", str(size["published"]), "--seed", str(seed))
             words += ("--strata", "uniform,stratified")
             yield Job(f"published/{token}", words)

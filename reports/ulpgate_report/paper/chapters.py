@@ -29,6 +29,13 @@ CHAPTERS = (
         ("heatmap", "error_vs_time", "distributions"),
     ),
     Chapter(
+        "published",
+        "Real functions at the published size",
+        "The two sets of arguments of the published verification, as many as it had where this paper was made in full.",
+        ("beside_published", "type_table", "worst_table", "paper_table"),
+        ("error_vs_time", "distributions"),
+    ),
+    Chapter(
         "kernels",
         "Kernels of the discrete element method",
         "An error is held against what the condition of the kernel at its state allows.",

@@ -9,7 +9,7 @@ from ulpgate_report.paper.chapters import CHAPTERS
 from ulpgate_report.records import records, suite
 from ulpgate_report.records.errors import InvalidInput, NothingMeasured
 
-LIBRARIES, HISTORY = "libraries", "history"
+LIBRARIES, HISTORY, PUBLISHED = "libraries", "history", "published"
 CLAIMS = "claims.json"
 
 
@@ -23,9 +23,13 @@ class Source:
     parts: tuple
 
 
+def _runs_below(path):
+    return [p for p in sorted(path.iterdir()) if (p / "context.json").is_file()]
+
+
 def _beside(path):
     """The functions of all runs below a directory side by side."""
-    places = [p for p in sorted(path.iterdir()) if (p / "context.json").is_file()]
+    places = _runs_below(path)
     if len(places) < 2:
         raise NothingMeasured(f"{path}: fewer than two libraries")
     runs = [records.load(place) for place in places]
@@ -34,9 +38,24 @@ def _beside(path):
     return records.Run(context, [], {}, libraries=found)
 
 
+def _joined(path):
+    """The functions of runs that have a type each, as one run."""
+    runs = [records.load(place) for place in _runs_below(path)]
+    if not runs:
+        raise NothingMeasured(f"{path}: no run")
+    types = {t["token"]: t for run in runs for t in run.context["types"]}
+    complete = all(run.context.get("complete", True) for run in runs)
+    context = {**runs[0].context, "types": list(types.values()), "complete": complete}
+    rows = [row for run in runs for row in run.math]
+    times = {key: time for run in runs for key, time in run.time_ns.items()}
+    return records.Run(context, rows, times)
+
+
 def _of(chapter, path):
     if chapter.run == LIBRARIES:
         run = _beside(path)
+    elif chapter.run == PUBLISHED:
+        run = _joined(path)
     elif chapter.run == HISTORY:
         run = records.Run({}, [], {}, history=history_file.load(path))
     else:
