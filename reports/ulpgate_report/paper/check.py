@@ -11,10 +11,11 @@ from pathlib import Path
 
 from ulpgate_report.app import output
 from ulpgate_report.figures import plotted
-from ulpgate_report.paper import chapters, write
+from ulpgate_report.paper import chapters, published, write
 from ulpgate_report.records.errors import InvalidInput
 
 TRACE = "trace.csv"
+_HOW = ("record", "computed", "published")
 _COLUMNS = ("fragment", "line", "column", "number", "how", "where")
 # A decimal number with its exponent, or a hexadecimal one; not the digits inside of a word such as float128 or 3a.
 _NUMBER = re.compile(
@@ -56,17 +57,29 @@ def _leaves(value, path=""):
             yield path, number
 
 
-def _rounded(value, digits):
-    return f"{value:.{digits - 1}e}" if value == value else "nan"
+# Fewer digits than these stand in any run by chance.
+LEAST_DIGITS = 3
+
+
+def _digits(value):
+    """Significant decimal digits of the shortest text of a number."""
+    mantissa = repr(abs(value)).split("e")[0].replace(".", "").strip("0")
+    return len(mantissa)
+
+
+def _key_of(record):
+    """What a line of records is of: (function, kernel or scene; type), None where it tells none."""
+    names = (record.get(k) for k in ("function", "kernel", "what", "scene"))
+    name = next((n for n in names if isinstance(n, str)), None)
+    token = record.get("type")
+    return (name, token) if name and isinstance(token, str) else None
 
 
 class Index:
-    """Where a number stands in the records of a run, by its first digits."""
-
-    DIGITS = (2, 3, 4, 17)
+    """Where a number stands in the records of a run: in those of its row, or of all."""
 
     def __init__(self, path):
-        self.places = {digits: {} for digits in self.DIGITS}
+        self.places = {None: {}}
         files = [path] if path.is_file() else sorted(path.rglob("*"))
         for file in files:
             if file.suffix in _RECORD_SUFFIXES and file.name not in _NO_RECORDS:
@@ -78,7 +91,7 @@ class Index:
             for number, row in enumerate(csv.reader(io.StringIO(text)), 1):
                 for column, cell in enumerate(row, 1):
                     for value in numbers_in(cell):
-                        self._add(value, f"{name}:{number}:{column}")
+                        self._add(None, value, f"{name}:{number}:{column}")
             return
         lines = text.splitlines() if file.suffix == ".jsonl" else [text]
         for number, line in enumerate(lines, 1):
@@ -86,21 +99,24 @@ class Index:
                 record = json.loads(line)
             except ValueError:
                 continue
-            for path, value in _leaves(record):
-                self._add(value, f"{name}:{number}:{path}")
+            rows = record if isinstance(record, list) else [record]
+            for row in rows:
+                key = _key_of(row) if isinstance(row, dict) else None
+                for path, value in _leaves(row):
+                    self._add(key, value, f"{name}:{number}:{path}")
 
-    def _add(self, value, place):
-        for digits, places in self.places.items():
-            places.setdefault(_rounded(value, digits), place)
+    def _add(self, key, value, place):
+        self.places[None].setdefault(value, place)
+        if key is not None:
+            self.places.setdefault(key, {}).setdefault(value, place)
 
-    def find(self, value):
-        """The first record that holds the number, rounded up or to nearest as tables show it; None where none does."""
-        for digits in reversed(self.DIGITS):
-            if float(_rounded(value, digits)) == value or digits == self.DIGITS[-1]:
-                place = self.places[digits].get(_rounded(value, digits))
-                if place:
-                    return place
-        return None
+    def find(self, value, key):
+        """The record that holds the very number: of the row's own where there are such, else any, if chance would not."""
+        if key in self.places and key is not None:
+            return self.places[key].get(value)
+        if _digits(value) < LEAST_DIGITS:
+            return None
+        return self.places[None].get(value)
 
 
 def _sealed(out, manifest):
@@ -209,6 +225,23 @@ def _run_of(name, runs):
     return runs / "claims" if name.startswith("claims_") else runs / "math"
 
 
+def _row_key(head, row):
+    """(function, type) that a row of a table names, None where it names none."""
+    of = dict(zip(head, row))
+    name = of.get("function") or of.get("scene") or ""
+    token = of.get("type")
+    # A part of a complex function stands behind its name.
+    return (name.split(" ")[0], token) if name and token else None
+
+
+def _how(index, column, value, key, place):
+    """(how, where) of one number."""
+    if column == "published":
+        return "published", published.CITATION
+    found = index.find(value, key)
+    return ("record", found) if found else ("computed", place)
+
+
 def _trace(runs, out, manifest):
     """Rows of the trace: of each number of each data file where it stands, or from which records it was computed."""
     indices, rows = {}, []
@@ -220,12 +253,12 @@ def _trace(runs, out, manifest):
             reader = csv.reader(file)
             head = next(reader, [])
             for line, row in enumerate(reader, 2):
+                key = _row_key(head, row)
                 for column, cell in zip(head, row):
                     for value in numbers_in(cell):
-                        found = indices[place].find(value)
-                        how = "record" if found else "computed"
-                        where = found or str(place.relative_to(runs))
-                        rows.append((name, line, column, repr(value), how, where))
+                        run = str(place.relative_to(runs))
+                        how = _how(indices[place], column, value, key, run)
+                        rows.append((name, line, column, repr(value), *how))
     return rows
 
 
@@ -244,10 +277,10 @@ def check(runs, out, history=None):
     writer.writerow(_COLUMNS)
     writer.writerows(rows)
     output.write_text(out / TRACE, text.getvalue())
-    held = sum(row[4] == "record" for row in rows)
+    counts = {how: sum(row[4] == how for row in rows) for how in _HOW}
     said = (
-        f"{len(manifest['files'])} files are what the records give; of {len(rows)} numbers in data/ {held} stand in a record, "
-        f"{len(rows) - held} were computed from records ({TRACE} says which); "
+        f"{len(manifest['files'])} files are what the records give; of {len(rows)} numbers in data/ {counts['record']} stand in a record, "
+        f"{counts['computed']} were computed from records, {counts['published']} are published ones ({TRACE} says which); "
         + (
             "paper.pdf was not looked at"
             if strange is None
