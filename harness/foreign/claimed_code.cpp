@@ -158,7 +158,7 @@ class ClaimedCode final : public BatchCode {
         const auto [values, error] = wide_values(function, x, points);
         for (std::size_t p = 0; p < points.size(); ++p) {
           // Where little is known of it, or its zero may be a small number.
-          constexpr double trusted = 16;
+          constexpr double trusted = 64;
           const bool known = error[p] >= 0 && error[p] <= trusted && values[p] != 0;
           y[points[p]] =
               known ? static_cast<Real>(values[p]) : from_mpfr<Real>(exact(x + points[p] * arity).get());
