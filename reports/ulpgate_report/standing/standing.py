@@ -36,6 +36,7 @@ class Standing:
     rows: int
     before: dict
     wrong_kind: int
+    complete: bool
 
     @property
     def failures(self):
@@ -83,6 +84,8 @@ def _change(old, new):
         return WORSE if new[1] > old[1] else BETTER
     if old[0] == new[0]:
         return None
+    if new[0] is None:
+        return WORSE  # nothing is judged any more
     return WORSE if numbers.larger(new[0], old[0]) else BETTER
 
 
@@ -123,4 +126,5 @@ def of(run):
     changes = None if run.before is None else _changes(_cells(run.before), cells)
     wrong = sum(cell[1] for cell in cells.values())
     before = {} if run.before is None else run.before.context
-    return Standing(run.gate, changes, len(cells), before, wrong)
+    complete = run.context.get("complete", True)
+    return Standing(run.gate, changes, len(cells), before, wrong, complete)

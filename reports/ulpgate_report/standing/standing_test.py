@@ -85,9 +85,23 @@ def test_rows_that_came_and_went(tmp_path):
     assert [(c.label, c.type, c.change) for c in found.changes] == [
         ("sin", "double", standing.GONE)
     ]
-    old, new = {("r", "t"): (1, 0, ())}, {}
-    assert [c.change for c in standing._changes(new, {})] == []
-    assert old and found.of_change(standing.NEW) == []
+    now = records.load(_write(tmp_path / "all"))
+    before = records.load(_write(tmp_path / "less", drop))
+    came = standing.of(records.Run(**{**vars(now), "before": before}))
+    assert [(c.label, c.type, c.change) for c in came.changes] == [
+        ("sin", "double", standing.NEW)
+    ]
+
+
+def test_a_row_of_which_nothing_is_judged_any_more_is_worse():
+    assert standing._change((0.5, 0, ()), (None, 0, ())) == standing.WORSE
+    assert standing._change((None, 0, ()), (0.5, 0, ())) == standing.WORSE
+    assert standing._change((0.5, 2, ()), (0.9, 1, ())) == standing.BETTER
+
+
+def test_an_incomplete_run_has_not_passed():
+    said = kind.headline(standing.Standing([], None, 3, {}, 0, False))
+    assert said[0][0].startswith("NOT PASSED") and said[0][1]
 
 
 @pytest.mark.parametrize(
