@@ -5,8 +5,13 @@ import pathlib
 import platform
 import re
 import subprocess
+import sys
 
 import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness/app/testing"))
+
+from smaller import smaller  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -18,21 +23,6 @@ PROGRAM = pathlib.Path(os.environ["ULPGATE"]).resolve()
 # Elsewhere commands are run all the same, and what they print is not compared.
 FMA = " fma " in pathlib.Path("/proc/cpuinfo").read_text()
 SAME_NUMBERS = platform.libc_ver() == ("glibc", "2.36") and FMA
-
-# Shown at the size that a reader wants, run at one that takes a second.
-SMALLER = [
-    (r"--samples \d+", "--samples 60"),
-    (r"--seconds \d+", "--seconds 1"),
-    (r"--evaluations \d+", "--evaluations 500"),
-    (r"--types all", "--types float,double"),
-    (r"--steps \d+", "--steps 20"),
-    (r"--repeats \d+", "--repeats 2"),
-    (r"--snapshots \S+", "--snapshots 0"),
-    (r"ulpgate math (?!.*--functions)", "ulpgate math --functions exp "),
-    (r"ulpgate kernels (?!--audit)", "ulpgate kernels --kernels sphere_sphere "),
-    # What it finds goes nowhere but into the test's own directory.
-    (r"--worst-cases ci/worst_cases", "--worst-cases ."),
-]
 
 FENCE = re.compile(
     r"(?:^(?:% |<!-- )run by (?P<by>[^\n]*?)(?: -->)?\n)?"
@@ -124,10 +114,8 @@ def test_commands_of_a_page(page, folder):
         elif kind == "sh" and by is None:
             for line in body.splitlines():
                 command = line.partition("  #")[0].strip()
-                for large, small in SMALLER:
-                    command = re.sub(large, small, command)
                 if command:
-                    done = run_in(folder, command)
+                    done = run_in(folder, smaller(command))
                     # Where a library is wrong a search says so.
                     codes = (0, 1) if "ulpgate search" in command else (0,)
                     assert done.returncode in codes, f"{command}\n{done.stderr}"

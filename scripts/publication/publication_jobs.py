@@ -2,6 +2,12 @@
 
 from jobs import NATIVE, ROOT, Job, pendulum_jobs
 
+# One or two of each order and kind: all of them take ten minutes.
+FEW_INTEGRATORS = (
+    *("leapfrog", "velocity_verlet", "forest_ruth", "yoshida8", "gauss4", "radau5"),
+    *("rodas3", "rk4", "dormand_prince54", "bulirsch_stoer"),
+)
+
 # `quick` takes minutes on two cores, `full` a night; `small` is what the tests run.
 SIZES = {
     "small": {
@@ -31,10 +37,8 @@ SIZES = {
         "speed": (20, 5),
         "stress": ("--types", "float,double,long_double,float128"),
         "work": (
-            "--cases",
-            "kepler,robertson",
-            "--types",
-            "float,double,long_double,float128",
+            *("--cases", "kepler,robertson", "--types", "float,double,float128"),
+            *("--integrators", ",".join(FEW_INTEGRATORS), "--repeats", "2"),
         ),
         "libraries": 20000,
         "claims": 20000,

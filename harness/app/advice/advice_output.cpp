@@ -6,6 +6,7 @@
 
 #include "harness/app/advice/advice.hpp"
 #include "harness/app/advice/work_precision_output.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -40,12 +41,11 @@ void print_looked_at(const Advice& advice, const AdviceCase& c) {
   std::vector<WorkPoint> points;
   for (std::size_t i = 0; i < advice.search.points.size(); ++i)
     points.push_back({advice.search.points[i].certain_error(), advice.places[i].seconds});
-  fmt::print("Pareto front of the {} settings looked at (errors with that of the truth added):\n",
-             points.size());
+  show("Pareto front of the {} settings looked at (errors with that of the truth added):\n", points.size());
   for (const auto i : pareto_front(points)) {
     const WorkSetting& s = advice.places[i].row.setting;
-    fmt::print("  {:<16} {:<22} {:>9} steps  error {:.2e}  {:>10}{}\n", s.type, s.integrator, s.steps,
-               points[i].error, shown_time(points[i].seconds), s.planned() ? "  " + s.dt : "");
+    show("  {:<16} {:<22} {:>9} steps  error {:.2e}  {:>10}{}\n", s.type, s.integrator, s.steps,
+         points[i].error, shown_time(points[i].seconds), s.planned() ? "  " + s.dt : "");
   }
   std::map<std::string, std::vector<std::string>> ends;
   for (std::size_t k = 0; k < c.choices().size(); ++k) {
@@ -58,7 +58,7 @@ void print_looked_at(const Advice& advice, const AdviceCase& c) {
     constexpr std::size_t most = 6;
     for (std::size_t i = 0; i < std::min(most, names.size()); ++i) list += (i == 0 ? "" : ", ") + names[i];
     if (names.size() > most) list += fmt::format(" and {} more", names.size() - most);
-    fmt::print("  {}: {}\n", why, list);
+    show("  {}: {}\n", why, list);
   }
 }
 
@@ -95,35 +95,33 @@ Json advice_json(const Advice& advice, const AdviceCase& c, const AdviceOptions&
 }
 
 void print_advice(const Advice& advice, const AdviceCase& c, const AdviceOptions& o) {
-  fmt::print("{}: wanted {:g}, {}\n", o.name, o.error, c.error_words());
+  show("{}: wanted {:g}, {}\n", o.name, o.error, c.error_words());
   const auto which = advice.best ? advice.best : advice.nearest;
   if (!which) {
-    fmt::print("no setting gave a number at all\n");
+    show("no setting gave a number at all\n");
   } else {
     const AdvicePlace& p = advice.places[*which];
     const WorkSetting& s = p.row.setting;
     const WorkOutcome& w = p.row.outcome;
-    fmt::print("{}: {} {}, {}\n", advice.best ? "cheapest of those measured" : "none meets it; the nearest",
-               s.type, s.integrator, c.step_words(s));
-    fmt::print(
+    show("{}: {} {}, {}\n", advice.best ? "cheapest of those measured" : "none meets it; the nearest", s.type,
+         s.integrator, c.step_words(s));
+    show(
         "  error {:.3e} at the end, {:.3e} the largest at {} times on the way; the truth is good to {:.1e}\n",
         w.error().value_or(HUGE_VAL), w.largest_error.value_or(HUGE_VAL), w.instants.value_or(1),
         w.reference_error.value_or(0));
-    fmt::print("  {} a run (noise {:.1f} %), {} evaluations{}\n", shown_time(p.seconds),
-               100 * advice.times.noise(), w.evaluations,
-               s.planned() ? "; finding the steps, once in double, not counted" : "");
-    fmt::print("  limited by {}\n", advice.limit);
-    if (const std::string contacts = c.contact_words(s); !contacts.empty()) fmt::print("  {}\n", contacts);
-    fmt::print("  run:            {}\n", c.run_command(s));
-    if (c.measure_command(s) != c.run_command(s)) fmt::print("  measure again:  {}\n", c.measure_command(s));
+    show("  {} a run (noise {:.1f} %), {} evaluations{}\n", shown_time(p.seconds), 100 * advice.times.noise(),
+         w.evaluations, s.planned() ? "; finding the steps, once in double, not counted" : "");
+    show("  limited by {}\n", advice.limit);
+    if (const std::string contacts = c.contact_words(s); !contacts.empty()) show("  {}\n", contacts);
+    show("  run:            {}\n", c.run_command(s));
+    if (c.measure_command(s) != c.run_command(s)) show("  measure again:  {}\n", c.measure_command(s));
   }
   print_looked_at(advice, c);
   std::size_t recorded = 0;
   for (const auto& p : advice.places) recorded += p.place.empty() ? 0 : 1;
-  fmt::print("rests on {} settings measured now and {} of records\n", advice.places.size() - recorded,
-             recorded);
+  show("rests on {} settings measured now and {} of records\n", advice.places.size() - recorded, recorded);
   for (const auto& p : advice.places)
-    if (!p.place.empty()) fmt::print("  {}\n", p.place);
+    if (!p.place.empty()) show("  {}\n", p.place);
 }
 
 }  // namespace ulpgate::app

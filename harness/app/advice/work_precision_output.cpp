@@ -8,6 +8,7 @@
 #include <set>
 
 #include "harness/app/shell/files.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/subject/registry.hpp"
 
 namespace ulpgate::app {
@@ -135,23 +136,22 @@ void print_row(const WorkPrecisionRow& row, const std::optional<TimeSummary>& ti
   const std::string seconds = time ? shown_time(time->minimum_s) : "-";
   const std::string front = on_front ? "  *" : "";
   if (row.setting.integrator.empty()) {
-    fmt::print("{:<16} {:<16} {:>12} ULP  relative {:>10}  {:>10} an evaluation{}{}\n", row.setting.name,
-               row.setting.type, o.largest_error_ulp ? fmt::format("{:.4f}", *o.largest_error_ulp) : "-",
-               shown_error(o.largest_error), seconds, front,
-               o.why.empty() ? "" : fmt::format("  {}: {}", to_string(o.failure), o.why));
+    show("{:<16} {:<16} {:>12} ULP  relative {:>10}  {:>10} an evaluation{}{}\n", row.setting.name,
+         row.setting.type, o.largest_error_ulp ? fmt::format("{:.4f}", *o.largest_error_ulp) : "-",
+         shown_error(o.largest_error), seconds, front,
+         o.why.empty() ? "" : fmt::format("  {}: {}", to_string(o.failure), o.why));
     return;
   }
   const std::string step =
       row.setting.dt.empty() ? fmt::format("{:.3g}", row.setting.dt_value) : row.setting.dt;
   if (o.failure != WorkFailure::none) {
-    fmt::print("  {:>9} dt {:<10} {}: {}\n", row.setting.steps, step, to_string(o.failure), o.why);
+    show("  {:>9} dt {:<10} {}: {}\n", row.setting.steps, step, to_string(o.failure), o.why);
     return;
   }
-  fmt::print(
-      "  {:>9} dt {:<10} error {:>10}  largest {:>10}  energy {:>10}  {:>10} evaluations  {:>10}  {}{}{}\n",
-      row.setting.steps, step, shown_error(o.final_error), shown_error(o.largest_error),
-      shown_error(o.energy_error), o.evaluations, seconds, regime ? to_string(*regime) : "",
-      o.t_s ? fmt::format("  t_s {}{:.3g} s", o.t_s_to_the_end ? ">= " : "", *o.t_s) : "", front);
+  show("  {:>9} dt {:<10} error {:>10}  largest {:>10}  energy {:>10}  {:>10} evaluations  {:>10}  {}{}{}\n",
+       row.setting.steps, step, shown_error(o.final_error), shown_error(o.largest_error),
+       shown_error(o.energy_error), o.evaluations, seconds, regime ? to_string(*regime) : "",
+       o.t_s ? fmt::format("  t_s {}{:.3g} s", o.t_s_to_the_end ? ">= " : "", *o.t_s) : "", front);
 }
 
 }  // namespace
@@ -253,13 +253,13 @@ void print_work_precision(const std::vector<WorkPrecisionRow>& rows, const Setti
     if (rows[i].setting.integrator.empty()) print(i, std::nullopt);
   for (const auto& c : curves_of(rows)) {
     const WorkSetting& s = rows[c.rows.front()].setting;
-    fmt::print("{} to {}: {} {}\n", s.name, s.end, s.integrator, s.type);
+    show("{} to {}: {} {}\n", s.name, s.end, s.integrator, s.type);
     for (std::size_t k = 0; k < c.rows.size(); ++k) print(c.rows[k], c.final_fit.regimes[k]);
-    fmt::print("{}", fit_line(FittedError::final, c.final_fit));
-    if (c.energy_fit.residual) fmt::print("{}", fit_line(FittedError::energy, c.energy_fit));
+    show("{}", fit_line(FittedError::final, c.final_fit));
+    if (c.energy_fit.residual) show("{}", fit_line(FittedError::energy, c.energy_fit));
   }
   if (!fronts.empty()) {
-    fmt::print(
+    show(
         "*: on the Pareto front of error and time (a gain in error of 2 % or less is none); times are good "
         "to {:.1f} % (a baseline's median over its "
         "minimum)\n",

@@ -13,6 +13,8 @@
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -140,17 +142,19 @@ std::string shown_error(double ulp, double claim) {
 
 void print_row(const ListedFunction& row, const ClaimFound& found, const std::string& variant) {
   const double claim = *row.spec.claimed_ulp;
-  fmt::print("{:<9} {:<10} {:<28} {:>7g} {:>12} {:<10} {:<10} {}\n", row.function, row.type, row.spec.symbol,
-             claim, shown_error(found.largest_ulp, claim), found.where,
-             found.violates(claim) ? "VIOLATED" : "holds", fmt::join(found.args, " "));
+  const bool violated = found.violates(claim);
+  const std::string word =
+      painted(violated ? Paint::bad : Paint::good, fmt::format("{:<8}", violated ? "VIOLATED" : "holds"));
+  show("{:<9} {:<10} {:<28} {:>7g} {:>12} {:<10}  {}  {}\n", row.function, row.type, row.spec.symbol, claim,
+       shown_error(found.largest_ulp, claim), found.where, word, fmt::join(found.args, " "));
   for (const auto& m : found.mismatches)
-    fmt::print("{:20}{} {} of {} arguments, first at {}\n", "", m.outcome, m.count, found.arguments,
-               fmt::join(m.args, " "));
+    show("{:20}{} {} of {} arguments, first at {}\n", "", m.outcome, m.count, found.arguments,
+         fmt::join(m.args, " "));
   for (const auto& p : found.properties)
-    fmt::print("{:20}not {}: {} {} ({} of {})\n", "", p.property, fmt::join(p.args, " "), p.says, p.broken,
-               p.looked_at);
-  if (!variant.empty()) fmt::print("{:20}{}\n", "", variant);
-  if (!found.program.empty()) fmt::print("{:20}shown by {}\n", "", found.program);
+    show("{:20}not {}: {} {} ({} of {})\n", "", p.property, fmt::join(p.args, " "), p.says, p.broken,
+         p.looked_at);
+  if (!variant.empty()) show("{:20}{}\n", "", variant);
+  if (!found.program.empty()) show("{:20}shown by {}\n", "", found.program);
 }
 
 // A function that does not come to an end is a violation, and no reason to leave the others out.
@@ -172,8 +176,8 @@ Verdict run_claims(const ClaimsOptions& o) {
   const auto rows = chosen_rows(o);
   make_directory(o.out);
   if (!o.json)
-    fmt::print("{:<9} {:<10} {:<28} {:>7} {:>12} {:<10} {:<10} {}\n", "function", "type", "symbol", "claim",
-               "found", "where", "", "argument");
+    show("{:<9} {:<10} {:<28} {:>7} {:>12} {:<10}  {:<8}  {}\n", "function", "type", "symbol", "claim",
+         "found", "where", "", "argument");
   std::map<std::string, Variants> variants;
   Json all = Json::array();
   Verdict verdict;
@@ -221,6 +225,8 @@ void add_claims_command(CLI::App& app, Action& action) {
   auto* claims = app.add_subcommand(
       "claims",
       "Hold the documented error bounds of libraries against what strata, search and all floats find");
+  set_foot(*claims, {"ulpgate claims libm --functions exp,log --out out/claims",
+                     "ulpgate claims sleef --types float --symbols avx2 --exhaustive --out out/sleef"});
   auto o = std::make_shared<ClaimsOptions>();
   claims->add_option("LIST", o->list, "sleef, libmvec, libm, or a TOML file of implementations with claims")
       ->required();

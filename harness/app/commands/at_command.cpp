@@ -10,6 +10,8 @@
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/records.hpp"
 #include "harness/app/store/worst_cases.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/watch/heartbeat.hpp"
 
 namespace ulpgate::app {
@@ -88,25 +90,25 @@ std::string outcome_words(const PointPart& p) {
 void print_part(const PointPart& p) {
   const bool finite = p.judgement.outcome == Outcome::finite;
   for (std::size_t i = 0; i < p.got_hex.size(); ++i) {
-    fmt::print("  {:<19} {}  ({})\n", "value", p.got_hex[i], p.got_decimal[i]);
-    fmt::print("  {:<19} {}\n", "exact value", p.exact_decimal[i]);
+    show("  {:<19} {}  ({})\n", "value", p.got_hex[i], p.got_decimal[i]);
+    show("  {:<19} {}\n", "exact value", p.exact_decimal[i]);
   }
-  fmt::print("  {:<19} {}\n", "ULP error", finite ? shown(p.judgement.error.value, 6) : "-");
-  fmt::print("  {:<19} {}\n", "float_distance", finite ? shown(p.judgement.distance, 0) : "-");
-  if (p.normwise_error) fmt::print("  {:<19} {} roundings\n", "normwise error", shown(*p.normwise_error, 6));
-  fmt::print("  {:<19} {}\n", "condition number",
-             std::isfinite(p.condition) ? fmt::format("{:.6g}", p.condition) : shown(p.condition, 0));
-  fmt::print("  {:<19} {}\n", "outcome", outcome_words(p));
+  show("  {:<19} {}\n", "ULP error", finite ? shown(p.judgement.error.value, 6) : "-");
+  show("  {:<19} {}\n", "float_distance", finite ? shown(p.judgement.distance, 0) : "-");
+  if (p.normwise_error) show("  {:<19} {} roundings\n", "normwise error", shown(*p.normwise_error, 6));
+  show("  {:<19} {}\n", "condition number",
+       std::isfinite(p.condition) ? fmt::format("{:.6g}", p.condition) : shown(p.condition, 0));
+  show("  {:<19} {}\n", "outcome", outcome_words(p));
 }
 
 void print_text(const Subject& subject, const Point& point) {
   const bool function = subject.info().kind == SubjectKind::function;
-  fmt::print("{} {} ({})\n", subject.name(), subject.type().token, subject.info().implementation);
+  show("{} {} ({})\n", subject.name(), subject.type().token, subject.info().implementation);
   for (std::size_t i = 0; function && i < point.args_hex.size(); ++i)
-    fmt::print("  argument {:<10} {}  ({})\n", i + 1, point.args_hex[i], point.args_decimal[i]);
+    show("  argument {:<10} {}  ({})\n", i + 1, point.args_hex[i], point.args_decimal[i]);
   for (std::size_t i = 0; i < point.parts.size(); ++i) {
-    if (!function) fmt::print(" {}\n", subject.info().parts[i].name);
-    if (function && point.parts.size() > 1) fmt::print(" {} part\n", i == 0 ? "real" : "imaginary");
+    if (!function) show(" {}\n", subject.info().parts[i].name);
+    if (function && point.parts.size() > 1) show(" {} part\n", i == 0 ? "real" : "imaginary");
     print_part(point.parts[i]);
   }
 }
@@ -166,13 +168,15 @@ Verdict run_at(std::vector<std::string> words) {
 void add_at_command(CLI::App& app, Action& action) {
   auto* at =
       app.add_subcommand("at", "Everything known about one point: value, exact value, ULP error, condition");
-  at->footer(
+  set_foot(
+      *at,
+      {"ulpgate at sin double 1e22", "ulpgate at pow long_double 1.5 -0x1.8p-3 --json",
+       "ulpgate at exp double 1 --library libm.so.6 --symbol exp"},
       "ulpgate at FUNCTION|KERNEL TYPE X... [--json] [--library L --symbol S]\n"
       "X is decimal, hexfloat (-0x1.5p+2), inf or nan, rounded once to TYPE; a complex argument is two "
       "numbers.\n"
       "--library and --symbol [--signature --worker --worker-environment --call-timeout] call the function "
-      "of a "
-      "shared library instead (`ulpgate math --help`).\n"
+      "of a shared library instead (`ulpgate math --help`).\n"
       "`ulpgate --timeout S at ...` waits longer than 60 s, or not as long.\n"
       "--json prints the keys function type args value reference ulp_error float_distance condition "
       "outcome.");

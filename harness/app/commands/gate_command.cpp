@@ -8,6 +8,8 @@
 #include "harness/app/gate/gate_suite.hpp"
 #include "harness/app/gate_output/outputs.hpp"
 #include "harness/app/shell/failure.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -59,10 +61,11 @@ void check(const GateOptions& o) {
 void print_summary(const GateResult& r, bool alone) {
   for (const auto& remark : r.remarks) fmt::print(stderr, "ulpgate: {}\n", remark);
   const std::uint64_t other = r.verdict.count(Standing::another_plan);
-  fmt::print(stderr, "ulpgate: gate: {}{} records, {} failed, {} incomplete or without budget{}\n",
-             alone ? "" : r.records_directory + ": ", r.records, r.verdict.count(Standing::regression),
-             r.verdict.count(Standing::incomplete),
-             other > 0 ? fmt::format(", {} of another plan", other) : "");
+  const std::string line = fmt::format(
+      "ulpgate: gate: {}{} records, {} failed, {} incomplete or without budget{}",
+      alone ? "" : r.records_directory + ": ", r.records, r.verdict.count(Standing::regression),
+      r.verdict.count(Standing::incomplete), other > 0 ? fmt::format(", {} of another plan", other) : "");
+  fmt::print(stderr, "{}\n", painted(r.verdict.passes() ? Paint::good : Paint::bad, line, stderr));
 }
 
 Verdict run_gate(const GateOptions& o) {
@@ -84,8 +87,13 @@ Verdict run_gate(const GateOptions& o) {
   std::vector<GateResult> results;
   for (std::size_t i = 0; i < o.directories.size(); ++i)
     results.push_back(judge_suite(o.directories[i], o.budgets_of(i), o.rules));
-  fmt::print("{}", o.json ? json_report(results) : text_report(results));
+  // What it came to stands first: hundreds of findings may follow.
   for (const auto& r : results) print_summary(r, results.size() == 1);
+  if (o.json) {
+    fmt::print("{}", json_report(results));
+  } else {
+    show_text(text_report(results));
+  }
   // The verdict is said before anything can go wrong with a file.
   std::fflush(stdout);
   write_outputs(o.files, results);
@@ -96,6 +104,8 @@ Verdict run_gate(const GateOptions& o) {
 
 void add_gate_command(CLI::App& app, Action& action) {
   auto* gate = app.add_subcommand("gate", "Hold records against budgets");
+  set_foot(*gate, {"ulpgate gate out/sin --budgets mine --update",
+                   "ulpgate gate out/sin --budgets mine --json > gate.json"});
   auto o = std::make_shared<GateOptions>();
   GateRules& rules = o->rules;
   gate->add_option("DIR", o->directories, "directories of records of any verb")->required();

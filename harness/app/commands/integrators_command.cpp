@@ -14,6 +14,8 @@
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -23,9 +25,23 @@ constexpr const char* orders_file = "orders.jsonl";
 constexpr const char* drift_file = "drift.jsonl";
 const std::string whole = Shard().text();
 
+// Before the table, which is long.
+void say_summary(const OrderVerdicts& verdicts) {
+  const std::string line = fmt::format("ulpgate: integrators: {} rows judged, {} wrong, {} not measured",
+                                       verdicts.judged, verdicts.wrong.size(), verdicts.refused.size());
+  const Paint paint = verdicts.wrong.empty() && verdicts.refused.empty() ? Paint::good : Paint::bad;
+  fmt::print(stderr, "{}\n", painted(paint, line, stderr));
+}
+
 // What a finished run comes to.
 Verdict report(const OrderVerdicts& verdicts, const OrderOptions& o) {
-  for (const auto& line : verdicts.wrong) fmt::print(o.json ? stderr : stdout, "FAIL {}\n", line);
+  for (const auto& line : verdicts.wrong) {
+    if (o.json) {
+      fmt::print(stderr, "FAIL {}\n", line);
+    } else {
+      show("{} {}\n", painted(Paint::bad, "FAIL"), line);
+    }
+  }
   for (const auto& line : verdicts.refused) fmt::print(stderr, "ulpgate: not measured: {}\n", line);
   if (!verdicts.wrong.empty()) return Standing::regression;
   if (!verdicts.refused.empty()) return Standing::incomplete;
@@ -45,7 +61,7 @@ std::string all_records(const OrderJob& job, const OrderOptions& o) {
 
 void print_table(const OrderJob& job, const OrderOptions& o) {
   for (std::size_t i = 0; i < job.rows.size(); ++i)
-    if (job.measurements[i]->complete()) fmt::print("{}", table_line(job.rows[i], o));
+    if (job.measurements[i]->complete()) show("{}", table_line(job.rows[i], o));
 }
 
 Verdict look_again(const std::filesystem::path& out, const OrderOptions& o) {
@@ -89,6 +105,7 @@ Verdict run_integrators(const OrderOptions& o) {
     out->finish(context, complete);
     if (complete) log->remove();
   }
+  if (complete) say_summary(verdicts);
   if (o.json) {
     fmt::print("{}", text);
   } else {
@@ -111,6 +128,9 @@ std::string finite_and_not_negative(const std::string& text) {
 void add_integrators_command(CLI::App& app, Action& action) {
   auto* verb = app.add_subcommand(
       "integrators", "Measure the order or the energy drift of integrators on exactly solved problems");
+  set_foot(*verb,
+           {"ulpgate integrators --integrators forest_ruth,gauss4 --types double,long_double",
+            "ulpgate integrators --integrators yoshida8 --problems kepler --drift 100 --out out/drift"});
   auto o = std::make_shared<OrderOptions>();
   verb->add_option("--integrators", o->integrators, "all or names (`ulpgate list integrators`)")
       ->capture_default_str();

@@ -3,6 +3,8 @@
 
 #include "harness/app/commands/commands.hpp"
 #include "harness/app/run/plan_run.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/kernels/kernel_audit.hpp"
 
 namespace ulpgate::app {
@@ -25,9 +27,9 @@ Verdict run_audit() {
   constexpr std::uint64_t states = 16;
   const auto found = audit_kernels(audited_kernel_table(), states);
   for (const auto& hidden : found)
-    fmt::print("{}: the double {} becomes a number of the kernel's type: good to 16 digits only\n",
-               hidden.kernel, hidden.literal);
-  fmt::print("{} kernels, {} hidden doubles\n", dem::all_kernels().size(), found.size());
+    show("{}: the double {} becomes a number of the kernel's type: good to 16 digits only\n", hidden.kernel,
+         hidden.literal);
+  show("{} kernels, {} hidden doubles\n", dem::all_kernels().size(), found.size());
   return found.empty() ? Standing::pass : Standing::regression;
 }
 
@@ -35,6 +37,9 @@ Verdict run_audit() {
 
 void add_kernels_command(CLI::App& app, Action& action) {
   auto* kernels = app.add_subcommand("kernels", "Evaluate DEM kernels and judge them against RealHP<4>");
+  set_foot(*kernels,
+           {"ulpgate kernels --kernels sphere_sphere --types float,double --samples 200 --out out/kernels",
+            "ulpgate kernels --audit"});
   auto o = std::make_shared<PlanOptions>();
   auto audit = std::make_shared<bool>(false);
   o->kind = SubjectKind::kernel;

@@ -2,9 +2,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <string_view>
+#include <vector>
+
 #include "harness/app/commands/commands.hpp"
 #include "harness/app/scenes/scene_files.hpp"
 #include "harness/app/store/context.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/subject/registry.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
 
@@ -30,9 +35,19 @@ std::vector<std::string> part_names(const SubjectInfo& subject) {
   return names;
 }
 
+using Table = std::vector<std::vector<std::string>>;
+
+void print(bool json, const Json& rows, const Table& table, std::string_view sides) {
+  if (json) {
+    fmt::print("{}\n", rows.dump(2));
+  } else {
+    show_text(aligned(table, sides));
+  }
+}
+
 void list_functions(bool json) {
   Json rows = Json::array();
-  if (!json) fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", "function", "class", "arity", "parts", "domain");
+  Table table(1, {"function", "class", "arity", "parts", "domain"});
   for (const auto* f : subjects_of(SubjectKind::function)) {
     std::vector<std::string> domains;
     for (const auto& input : f->inputs) domains.push_back(input.domain);
@@ -44,11 +59,11 @@ void list_functions(bool json) {
                       {"domain", joined(domains)},
                       {"implementation", implementations(f->name)}});
     } else {
-      fmt::print("{:<20} {:<8} {:>5}  {:<8} {}\n", f->name, f->subject_class, f->inputs.size(),
-                 joined(part_names(*f)), joined(domains));
+      table.push_back({f->name, f->subject_class, std::to_string(f->inputs.size()), joined(part_names(*f)),
+                       joined(domains)});
     }
   }
-  if (json) fmt::print("{}\n", rows.dump(2));
+  print(json, rows, table, "llrll");
 }
 
 void list_types(bool json) {
@@ -56,35 +71,46 @@ void list_types(bool json) {
   for (const auto& type : all_types()) tokens.push_back(type.token);
   if (json) return fmt::print("{}\n", type_rows(tokens).dump(2));
   const auto or_dash = [](int n) { return n == 0 ? std::string("-") : std::to_string(n); };
-  fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", "token", "C++ type", "total bits",
-             "decimal places", "exponent bits", "significand bits", "RealHP<4> bits");
+  // Two lines of heads, so that the numbers take a terminal of 80 columns.
+  Table table = {{"", "total", "decimal", "exponent", "significand", "RealHP<4>"},
+                 {"token", "bits", "places", "bits", "bits", "bits", "C++ type"}};
   for (const RealDescriptor& d : all_types()) {
-    fmt::print("{:<17} {:<34} {:>10} {:>14} {:>13} {:>16} {:>15}\n", d.token, d.cpp_type,
-               d.total_bits == 0 ? "N" : std::to_string(d.total_bits), d.decimal_places,
-               or_dash(d.exponent_bits), d.significand_bits, d.reference_bits);
+    table.push_back({d.token, d.total_bits == 0 ? "N" : std::to_string(d.total_bits),
+                     std::to_string(d.decimal_places), or_dash(d.exponent_bits),
+                     std::to_string(d.significand_bits), std::to_string(d.reference_bits), d.cpp_type});
   }
+  print(false, {}, table, "lrrrrrl");
 }
 
 template <class Strata>
-void print_strata(const Strata& strata, const char* what, bool json, Json& rows) {
+void add_strata(const Strata& strata, const char* what, bool json, Json& rows, Table& table) {
   for (const auto& s : strata) {
     if (json) {
       rows.push_back({{"of", what}, {"stratum", s.name}, {"description", s.description}});
     } else {
-      fmt::print("{:<8} {:<11} {}\n", what, s.name, s.description);
+      table.push_back({what, s.name, s.description});
     }
   }
 }
 
 void list_strata(bool json) {
   Json rows = Json::array();
-  print_strata(function_strata, "math", json, rows);
-  print_strata(kernel_strata, "kernels", json, rows);
-  if (json) fmt::print("{}\n", rows.dump(2));
+  Table table(1, {"of", "stratum", "what is drawn"});
+  add_strata(function_strata, "math", json, rows, table);
+  add_strata(kernel_strata, "kernels", json, rows, table);
+  print(json, rows, table, "lll");
+}
+
+// With spaces, at which a line can be broken.
+std::string spaced(const std::string& names) {
+  std::string text;
+  for (const char c : names) text += c == ',' ? std::string(", ") : std::string(1, c);
+  return text;
 }
 
 void list_kernels(bool json) {
   Json rows = Json::array();
+  Table table(1, {"kernel", "(inputs) -> outputs"});
   for (const auto* k : subjects_of(SubjectKind::kernel)) {
     std::vector<std::string> names;
     for (const auto& input : k->inputs) names.push_back(input.name);
@@ -93,28 +119,31 @@ void list_kernels(bool json) {
     if (json) {
       rows.push_back({{"kernel", k->name}, {"inputs", inputs}, {"outputs", outputs}});
     } else {
-      fmt::print("{:<25} ({}) -> {}\n", k->name, inputs, outputs);
+      table.push_back({k->name, fmt::format("({}) -> {}", spaced(inputs), spaced(outputs))});
     }
   }
-  if (json) fmt::print("{}\n", rows.dump(2));
+  print(json, rows, table, "ll");
 }
 
 void list_scenes(bool json) {
   Json rows = Json::array();
+  Table table(1, {"scene", "what it is"});
   for (const auto& builtin : builtin_scenes()) {
     const auto scene = load_scene(builtin.name, {}).scene;
     if (json) {
       rows.push_back(
           {{"scene", scene.name}, {"title", scene.title}, {"dt", scene.dt}, {"until", scene.until}});
     } else {
-      fmt::print("{:<12} {} (dt {} s, until {} s)\n", scene.name, scene.title, scene.dt, scene.until);
+      table.push_back(
+          {scene.name, fmt::format("{} (dt {} s, until {} s)", scene.title, scene.dt, scene.until)});
     }
   }
-  if (json) fmt::print("{}\n", rows.dump(2));
+  print(json, rows, table, "ll");
 }
 
 void list_integrators(bool json) {
   Json rows = Json::array();
+  Table table(1, {"integrator", "kind", "order", "source"});
   for (const auto& i : ode::integrators()) {
     const std::string kind(ode::to_string(i.kind));
     if (json) {
@@ -125,17 +154,18 @@ void list_integrators(bool json) {
            {"evaluations_per_step", i.evaluations_per_step ? Json(*i.evaluations_per_step) : Json(nullptr)},
            {"citation", i.citation}});
     } else {
-      fmt::print("{:<20} {:<14} order {:<5} {}\n", i.name, kind, i.order ? std::to_string(*i.order) : "free",
-                 i.citation);
+      table.push_back(
+          {std::string(i.name), kind, i.order ? std::to_string(*i.order) : "free", std::string(i.citation)});
     }
   }
-  if (json) fmt::print("{}\n", rows.dump(2));
+  print(json, rows, table, "llrl");
 }
 
 }  // namespace
 
 void add_list_command(CLI::App& app, Action& action) {
   auto* list = app.add_subcommand("list", "List functions, types, strata, kernels, scenes or integrators");
+  set_foot(*list, {"ulpgate list functions", "ulpgate list types --json"});
   auto what = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   list->add_option("what", *what, "functions, types, strata, kernels, scenes or integrators")

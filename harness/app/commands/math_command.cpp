@@ -9,6 +9,7 @@
 #include "harness/app/run/plan_run.hpp"
 #include "harness/app/run/record_verdicts.hpp"
 #include "harness/app/store/worst_cases.hpp"
+#include "harness/app/terminal/help.hpp"
 
 namespace ulpgate::app {
 
@@ -92,6 +93,10 @@ Verdict run_math(MathOptions o, Ranks* ranks) {
 
 void add_math_command(CLI::App& app, Action& action, const RanksOfJob& ranks) {
   auto* math = app.add_subcommand("math", "Evaluate math functions and judge them against the reference");
+  set_foot(*math,
+           {"ulpgate math --functions sin,exp --types float,double --samples 2000 --out out/sin",
+            "ulpgate math --functions exp --types double --library libm.so.6 --symbol exp --out out/libm",
+            "ulpgate math --functions exp --types double --samples 2000 --shard 0/2 --out out/half0"});
   auto o = std::make_shared<MathOptions>();
   o->timing = "auto";
   math->add_option("--functions", o->subjects, "all, real, complex, special or names, comma-separated")

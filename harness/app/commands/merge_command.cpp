@@ -10,6 +10,7 @@
 #include "harness/app/run/record_verdicts.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/output_directory.hpp"
+#include "harness/app/terminal/help.hpp"
 
 namespace ulpgate::app {
 
@@ -159,6 +160,9 @@ Verdict run_merge(const std::vector<std::string>& directories, const std::string
 
 void add_merge_command(CLI::App& app, Action& action) {
   auto* merge = app.add_subcommand("merge", "Join the records of shards");
+  set_foot(*merge, {"ulpgate math --functions exp --types double --samples 2000 --shard 1/2 --out out/half1 "
+                    "&& ulpgate merge out/half0 out/half1 --out out/whole",
+                    "ulpgate merge out/half0 out/half1 --out out/whole --allow-other-machine --overwrite"});
   auto directories = std::make_shared<std::vector<std::string>>();
   auto out = std::make_shared<std::string>();
   merge->add_option("DIR", *directories, "directories of the shards")->required();

@@ -18,6 +18,8 @@
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/records.hpp"
 #include "harness/app/store/worst_cases.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/search/function_search.hpp"
 #include "harness/core/watch/heartbeat.hpp"
 
@@ -160,26 +162,25 @@ std::string text_of(const Json& error) {
 
 void print_text(const Json& found) {
   if (found.at("args").empty()) {
-    fmt::print("{} {}: no argument with an error in ULP was found\n", found.at("function").get<std::string>(),
-               found.at("type").get<std::string>());
+    show("{} {}: no argument with an error in ULP was found\n", found.at("function").get<std::string>(),
+         found.at("type").get<std::string>());
   } else {
-    fmt::print("{} {}\n", found.at("function").get<std::string>(), found.at("type").get<std::string>());
-    fmt::print("  largest ULP error   {}\n", text_of(found.at("ulp_error")));
-    fmt::print("  argument            {}\n",
-               fmt::join(found.at("args").get<std::vector<std::string>>(), " "));
+    show("{} {}\n", found.at("function").get<std::string>(), found.at("type").get<std::string>());
+    show("  largest ULP error   {}\n", text_of(found.at("ulp_error")));
+    show("  argument            {}\n", fmt::join(found.at("args").get<std::vector<std::string>>(), " "));
     fmt::print("  float_distance      {}\n", found.at("float_distance").dump());
-    fmt::print("  reproduce           {}\n", found.at("reproduce").get<std::string>());
+    show("  reproduce           {}\n", found.at("reproduce").get<std::string>());
   }
   if (const Json& other = found.at("elsewhere"); !other.is_null()) {
-    fmt::print("  elsewhere           {} away from hard arguments and known worst cases\n",
-               text_of(other.at("ulp_error")));
-    fmt::print("  reproduce           {}\n", other.at("reproduce").get<std::string>());
+    show("  elsewhere           {} away from hard arguments and known worst cases\n",
+         text_of(other.at("ulp_error")));
+    show("  reproduce           {}\n", other.at("reproduce").get<std::string>());
   }
-  fmt::print("  evaluations         {} (found after {})\n", found.at("evaluations").get<std::uint64_t>(),
-             found.at("found_after").get<std::uint64_t>());
+  show("  evaluations         {} (found after {})\n", found.at("evaluations").get<std::uint64_t>(),
+       found.at("found_after").get<std::uint64_t>());
   for (const auto& m : found.at("mismatches")) {
-    fmt::print("  mismatch            {}: {}\n", m.at("outcome").get<std::string>(),
-               m.at("reproduce").get<std::string>());
+    show("  mismatch            {}: {}\n", m.at("outcome").get<std::string>(),
+         m.at("reproduce").get<std::string>());
   }
 }
 
@@ -252,6 +253,8 @@ Verdict run_search(const SearchOptions& o) {
 void add_search_command(CLI::App& app, Action& action) {
   auto* search =
       app.add_subcommand("search", "Hunt for the largest error of a function over its whole domain");
+  set_foot(*search, {"ulpgate search tgamma double --seconds 5",
+                     "ulpgate search exp double --evaluations 100000 --limit 0.52 --json"});
   auto o = std::make_shared<SearchOptions>();
   search->add_option("FUNCTION", o->function, "a real or complex function")->required();
   search->add_option("TYPE", o->type, "a type")->required();

@@ -8,6 +8,7 @@
 #include "harness/app/run/record_verdicts.hpp"
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/store/records.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -77,7 +78,7 @@ void tighten(const Files& files, HeldBudgets<Files>& held, const std::optional<P
   const bool of_base = match == PlatformBudgets::Match::base;
   auto& own = of_base ? held.base : held.overlay;
   const auto changes = lower(own);
-  for (const auto& c : changes) fmt::print("tightened {} {}: {}\n", c.row, c.type, c.what);
+  for (const auto& c : changes) show("tightened {} {}: {}\n", c.row, c.type, c.what);
   const std::filesystem::path directory = of_base ? result.budgets_directory : result.platform_directory;
   if (!changes.empty()) files.write(directory, own);
   fmt::print(stderr, "ulpgate: {} budgets tightened in {}\n", changes.size(), directory.string());

@@ -6,6 +6,7 @@
 #include "harness/app/gate/measured_rows.hpp"
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/store/records.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/gate/bounds.hpp"
 
 namespace ulpgate::app {
@@ -58,7 +59,7 @@ void add_bounds_of_seeds(const GateRules& rules, const std::string& budgets, Bud
 // Says what would become looser; whether it may.
 bool may_loosen(const GateRules& rules, const std::vector<Raise>& raises) {
   for (const auto& r : raises) {
-    fmt::print("{} {} {}: {}\n", rules.reason.empty() ? "WOULD LOOSEN" : "loosened", r.row, r.type, r.what);
+    show("{} {} {}: {}\n", rules.reason.empty() ? "WOULD LOOSEN" : "loosened", r.row, r.type, r.what);
   }
   if (raises.empty() || !rules.reason.empty()) return true;
   fmt::print(stderr, "ulpgate: nothing written: a budget is loosened only with --reason TEXT\n");
@@ -69,8 +70,8 @@ bool may_loosen(const GateRules& rules, const std::vector<Raise>& raises) {
 bool is_sound(const std::vector<MeasuredRow>& measured) {
   const auto wrong = breaches(measured);
   for (const auto& f : wrong) {
-    fmt::print("{:<12} {} {}: {}\n", label_of(f.kind), f.row, f.type, f.message);
-    fmt::print("{:<12}   reproduce: {}\n", "", f.reproduce);
+    show("{:<12} {} {}: {}\n", label_of(f.kind), f.row, f.type, f.message);
+    show("{:<12}   reproduce: {}\n", "", f.reproduce);
   }
   if (!wrong.empty())
     fmt::print(stderr, "ulpgate: nothing written: {} rows are wrong whatever a budget says\n", wrong.size());
@@ -111,8 +112,8 @@ Verdict update_platform(const Files& files, const std::string& budgets, const Pl
                                                    : "as measured with " + platform.here.words();
   const auto found = rows_of(held.held(), reason);
   for (const auto& change : found.changes) {
-    fmt::print("{} {} {}: {}\n", reason.empty() ? "WOULD LOOSEN" : "of the platform", change.row, change.type,
-               change.what);
+    show("{} {} {}: {}\n", reason.empty() ? "WOULD LOOSEN" : "of the platform", change.row, change.type,
+         change.what);
   }
   if (!found.changes.empty() && reason.empty()) {
     fmt::print(stderr, "ulpgate: nothing written: the budgets of {} change only with --reason TEXT\n",

@@ -10,7 +10,7 @@ namespace ulpgate::app {
 
 // The lines of stdout: failing rows, the worst first, each with what reproduces it; then what can be lowered.
 [[nodiscard]] std::string text_report(const std::vector<GateResult>& results);
-// The same as a list of objects.
+// The same as an object: "exit_code" and "verdict" of the gate, "sets" of records with theirs, "findings".
 [[nodiscard]] std::string json_report(const std::vector<GateResult>& results);
 
 // JUnit XML: a suite for each directory of records, in it one test case for the directory and one a row of a

@@ -5,6 +5,7 @@
 
 #include "harness/app/gate_output/output_text.hpp"
 #include "harness/app/gate_output/outputs.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -24,6 +25,11 @@ std::vector<PlacedFinding> with_notes(const std::vector<GateResult>& results) {
   return all;
 }
 
+Paint paint_of(FindingKind kind) {
+  const bool note = kind == FindingKind::could_lower || kind == FindingKind::missing_record;
+  return note ? Paint::note : Paint::bad;
+}
+
 Json number_or_null(const std::optional<double>& x) {
   return x ? Json(*x) : Json(nullptr);
 }
@@ -37,7 +43,8 @@ std::string text_report(const std::vector<GateResult>& results) {
     // Records of a few functions held to the budgets of all: a line each would bury what failed.
     if (f->kind == FindingKind::missing_record && ++not_measured > most_not_measured) continue;
     const std::string of = results.size() > 1 ? fmt::format(" [{}]", result->records_directory) : "";
-    text += fmt::format("{:<12} {} {}: {}{}\n", label_of(f->kind), f->row, f->type, f->message, of);
+    const std::string label = painted(paint_of(f->kind), fmt::format("{:<12}", label_of(f->kind)));
+    text += fmt::format("{} {} {}: {}{}\n", label, f->row, f->type, f->message, of);
     if (f->kind == FindingKind::could_lower) continue;
     for (const auto& [name, value] : details_of(*f))
       text += fmt::format("{:<12}   {}: {}\n", "", name, value);
@@ -66,7 +73,20 @@ std::string json_report(const std::vector<GateResult>& results) {
                     {"wanted", f->wanted},
                     {"records", result->records_directory}});
   }
-  return rows.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  Json sets = Json::array();
+  for (const auto& r : results) {
+    sets.push_back({{"records", r.records_directory},
+                    {"exit_code", exit_code(r.verdict.standing())},
+                    {"judged", r.records},
+                    {"failed", r.verdict.count(Standing::regression)},
+                    {"incomplete", r.verdict.count(Standing::incomplete)},
+                    {"remarks", r.remarks}});
+  }
+  const Json all = {{"exit_code", exit_code(verdict_of(results).standing())},
+                    {"verdict", verdict_words(results)},
+                    {"sets", sets},
+                    {"findings", rows}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace ulpgate::app

@@ -4,6 +4,8 @@
 #include "harness/app/history_commands/compare_output.hpp"
 #include "harness/app/history_commands/history_commands.hpp"
 #include "harness/app/shell/files.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -38,7 +40,11 @@ Verdict run_compare(const CompareOptions& o) {
   const Verdict verdict = verdict_of(found, o);
   const Comparison comparison{before, after, found};
   if (!o.markdown.empty()) write_file(o.markdown, comparison_markdown(comparison, o.most));
-  fmt::print("{}", o.json ? comparison_json(comparison) : comparison_text(comparison, o.most));
+  if (o.json) {
+    fmt::print("{}", comparison_json(comparison));
+  } else {
+    show_text(comparison_text(comparison, o.most));
+  }
   return verdict;
 }
 
@@ -47,11 +53,11 @@ Verdict run_compare(const CompareOptions& o) {
 void add_compare_command(CLI::App& app, Action& action) {
   auto* verb =
       app.add_subcommand("compare", "Tell two runs apart row by row: accuracy exactly, speed beyond noise");
-  verb->footer(
-      "Exit 1 where a row of B is worse or slower, 3 where a row of A is not in B.\n"
-      "Examples:\n"
-      "  ulpgate compare debian12 debian13 --markdown summary.md\n"
-      "  ulpgate math --timing repeats --out B && ulpgate compare A B --json");
+  set_foot(*verb,
+           {"ulpgate compare debian12 debian13 --markdown summary.md",
+            "ulpgate math --functions exp --types double --timing repeats --samples 2000 --out B && ulpgate "
+            "compare A B --json"},
+           "Exit 1 where a row of B is worse or slower, 3 where a row of A is not in B.");
   auto o = std::make_shared<CompareOptions>();
   verb->add_option("A", o->before, "directory of the records before")->required();
   verb->add_option("B", o->after, "directory of the records after")->required();

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "harness/app/terminal/terminal.hpp"
+
 namespace ulpgate::app {
 
 namespace {
@@ -89,26 +91,43 @@ Json keys_json(const std::vector<RowKey>& keys) {
 
 }  // namespace
 
+namespace {
+
+// A word at the head of a line, in the colour of its change.
+std::string padded(Change change, std::string_view word) {
+  const std::string text = fmt::format("{:<8}", word);
+  if (change == Change::worse) return painted(Paint::bad, text);
+  return change == Change::better ? painted(Paint::good, text) : text;
+}
+
+std::string word_of(Change change) {
+  return padded(change, to_string(change));
+}
+
+}  // namespace
+
 std::string comparison_text(const Comparison& c, std::size_t most) {
-  std::string text;
+  // What it came to stands first.
+  std::string text =
+      fmt::format("{}\n{}\nplatform {}\n", counts_text(c), times_counts(c.found), machines_text(c));
   std::array<std::size_t, 4> shown{};
   for (const auto& row : c.found.rows) {
     if (++shown[static_cast<std::size_t>(row.change)] > most) continue;
     text +=
-        fmt::format("{:<8} {}: {}{}\n", to_string(row.change), row.key.text(), row.text,
+        fmt::format("{} {}: {}{}\n", word_of(row.change), row.key.text(), row.text,
                     row.before.implementation == row.after.implementation ? "" : "; " + implementations(row));
   }
   for (const auto change : {Change::worse, Change::better, Change::other})
     if (c.found.count(change) > most)
-      text += fmt::format("{:<8} ... {} rows in all\n", to_string(change), c.found.count(change));
+      text += fmt::format("{} ... {} rows in all\n", word_of(change), c.found.count(change));
   text += keys_text("lost", c.found.only_before, most) + keys_text("new", c.found.only_after, most);
   for (const auto& row : c.found.times) {
     if (row.change == Change::none) continue;
-    text += fmt::format("{:<8} {}: {} -> {}, {} (p = {:.2g})\n",
-                        row.change == Change::worse ? "slower" : "faster", row.key.text(),
+    text += fmt::format("{} {}: {} -> {}, {} (p = {:.2g})\n",
+                        padded(row.change, row.change == Change::worse ? "slower" : "faster"), row.key.text(),
                         time_of(row.before_s), time_of(row.after_s), percent(row.ratio), row.p_value);
   }
-  return text + fmt::format("platform {}\n{}\n{}\n", machines_text(c), counts_text(c), times_counts(c.found));
+  return text;
 }
 
 std::string comparison_markdown(const Comparison& c, std::size_t most) {

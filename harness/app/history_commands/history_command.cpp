@@ -5,6 +5,8 @@
 #include "harness/app/history_commands/history_output.hpp"
 #include "harness/app/history_commands/revision.hpp"
 #include "harness/app/shell/selection.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -41,7 +43,7 @@ Verdict add_runs(const HistoryOptions& o) {
 }
 
 void print_steps(const std::vector<HistoryRun>& runs, const std::vector<HistoryStep>& steps) {
-  for (const auto& step : steps) fmt::print("{}", step_line(runs, step));
+  for (const auto& step : steps) show("{}", step_line(runs, step));
 }
 
 Json steps_json(const std::vector<HistoryRun>& runs, const std::vector<HistoryStep>& steps) {
@@ -149,8 +151,8 @@ Verdict show_trend(const HistoryOptions& o) {
     fmt::print("{}\n", all.dump(2));
     return Standing::pass;
   }
-  fmt::print("{} {}\n{}", o.name, o.type, trend_table(file.runs(), columns));
-  fmt::print("{}", steps.empty() ? "no step\n" : "");
+  show("{} {}\n{}", o.name, o.type, trend_table(file.runs(), columns));
+  show("{}", steps.empty() ? "no step\n" : "");
   print_steps(file.runs(), steps);
   return Standing::pass;
 }
@@ -171,14 +173,13 @@ Verdict run_history(const HistoryOptions& o) {
 void add_history_command(CLI::App& app, Action& action) {
   auto* verb =
       app.add_subcommand("history", "Keep runs in a file; show a trend and the commits at which it stepped");
-  verb->footer(
-      "Examples:\n"
-      "  ulpgate math --timing repeats --out A && ulpgate history --add A --db h.sqlite\n"
-      "  ulpgate history exp double --db h.sqlite\n"
-      "  ulpgate history --steps --json --db h.sqlite\n"
+  set_foot(
+      *verb,
+      {"ulpgate math --functions exp --types double --timing repeats --samples 2000 --out A && ulpgate "
+       "history --add A --db h.sqlite",
+       "ulpgate history exp double --db h.sqlite", "ulpgate history --steps --json --db h.sqlite"},
       "Accuracy is deterministic: any change of a figure is a step.  Times are noisy: a step of speed is a "
-      "change by 5 % "
-      "and\nby five standard errors between levels of three runs at least.");
+      "change by 5 % and by five standard errors between levels of three runs at least.");
   auto o = std::make_shared<HistoryOptions>();
   verb->add_option("FUNCTION", o->name, "function, kernel, scene, integrator or case");
   verb->add_option("TYPE", o->type, "token of its type");

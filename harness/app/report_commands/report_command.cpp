@@ -2,6 +2,7 @@
 #include "harness/app/report_commands/report_commands.hpp"
 #include "harness/app/report_commands/report_program.hpp"
 #include "harness/app/shell/failure.hpp"
+#include "harness/app/terminal/help.hpp"
 
 namespace ulpgate::app {
 
@@ -43,6 +44,8 @@ Verdict run_report(const ReportOptions& o) {
 
 void add_report_command(CLI::App& app, Action& action) {
   auto* report = app.add_subcommand("report", "Make tables, figures and a page from records");
+  set_foot(*report,
+           {"ulpgate report out/sin --print", "ulpgate report out/sin --gate gate.json --out out/page"});
   auto o = std::make_shared<ReportOptions>();
   report
       ->add_option(

@@ -40,7 +40,7 @@ def red_rows(options, env, token, seed, size, folder):
     call(env, options.ulpgate, "math", *plan)
     gate = ["gate", folder, "--budgets", "ci/budgets", "--only-measured"]
     code, out = call(dict(os.environ), options.ulpgate, *gate, "--other-plan", "--json")
-    return code != 0, {finding_text(f) for f in json.loads(out)}
+    return code != 0, {finding_text(f) for f in json.loads(out)["findings"]}
 
 
 def finding_text(finding):

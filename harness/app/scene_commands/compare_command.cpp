@@ -9,8 +9,8 @@ void add_scene_compare_command(CLI::App& scene, Action& action) {
   auto own_constants = std::make_shared<bool>(false);
   add_scene_verb(
       scene, action, "compare", "Run a scene beside RealHP<4> from the same state and report the divergence",
-      "  ulpgate scene compare collision --types float,double\n"
-      "  ulpgate scene compare deposition --steps 1000 --types float --record --out S",
+      {"ulpgate scene compare collision --types float,double",
+       "ulpgate scene compare deposition --steps 1000 --types float --record --out S"},
       o,
       [o, own_constants](CLI::App& verb) {
         add_model_options(verb, *o);

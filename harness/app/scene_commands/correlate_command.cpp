@@ -12,8 +12,8 @@ void add_scene_correlate_command(CLI::App& scene, Action& action) {
   add_scene_verb(
       scene, action, "correlate",
       "Tell how long the angles of each type stay true to those of a run of more digits, and what limits it",
-      "  ulpgate scene correlate pendulum3 --types all --reference mpfr150\n"
-      "  ulpgate scene correlate pendulum3 --integrator yoshida8 --series --out Y",
+      {"ulpgate scene correlate pendulum3 --types all --reference mpfr150",
+       "ulpgate scene correlate pendulum3 --integrator yoshida8 --series --out Y"},
       o,
       [o, reference](CLI::App& verb) {
         add_model_options(verb, *o);

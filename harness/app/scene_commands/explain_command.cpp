@@ -7,6 +7,7 @@
 #include "harness/app/scene_commands/scene_commands.hpp"
 #include "harness/app/scene_commands/scene_options.hpp"
 #include "harness/app/scenes/watched_steps.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -37,17 +38,16 @@ void explain(const std::string& token, const SceneJob& job) {
   with_all.all_parts = true;
   const auto lean = engine_of(token, dem::Level::own, job);
   const auto full = engine_of(token, dem::Level::own, with_all);
-  fmt::print("{} in {}\n", job.loaded.scene.name, token);
-  for (const auto& part : lean->explain().left_out)
-    fmt::print("  left out: {:<12} {}\n", part.part, part.why);
-  if (lean->explain().left_out.empty()) fmt::print("  nothing is left out\n");
+  show("{} in {}\n", job.loaded.scene.name, token);
+  for (const auto& part : lean->explain().left_out) show("  left out: {:<12} {}\n", part.part, part.why);
+  if (lean->explain().left_out.empty()) show("  nothing is left out\n");
   const std::size_t lean_bytes = lean->memory_bytes();
   const std::size_t full_bytes = full->memory_bytes();
   const double lean_ns = seconds_per_step(*lean, job) * 1e9;
   const double full_ns = seconds_per_step(*full, with_all) * 1e9;
-  fmt::print("  {:<22} {:>14.1f} ns  {:>12} bytes\n", "step as it is", lean_ns, lean_bytes);
-  fmt::print("  {:<22} {:>14.1f} ns  {:>12} bytes  {:.2f} times slower\n", "step with all parts", full_ns,
-             full_bytes, full_ns / lean_ns);
+  show("  {:<22} {:>14.1f} ns  {:>12} bytes\n", "step as it is", lean_ns, lean_bytes);
+  show("  {:<22} {:>14.1f} ns  {:>12} bytes  {:.2f} times slower\n", "step with all parts", full_ns,
+       full_bytes, full_ns / lean_ns);
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ void add_scene_explain_command(CLI::App& scene, Action& action) {
   auto o = std::make_shared<SceneOptions>();
   add_scene_verb(
       scene, action, "explain", "Print what a scene leaves out, and the time of a step with and without",
-      "  ulpgate scene explain pendulum3\n"
-      "  ulpgate scene explain deposition --types float,double --threads 2",
+      {"ulpgate scene explain pendulum3",
+       "ulpgate scene explain deposition --types float,double --threads 2"},
       o,
       [o](CLI::App& verb) {
         add_model_options(verb, *o);

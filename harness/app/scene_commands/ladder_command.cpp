@@ -6,6 +6,7 @@
 #include "harness/app/scene_commands/scene_commands.hpp"
 #include "harness/app/scene_commands/scene_options.hpp"
 #include "harness/app/shell/selection.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/kernels/kernel_audit.hpp"
 #include "harness/core/scenes/scene_compare.hpp"
 
@@ -23,16 +24,16 @@ Verdict ladder(const std::string& token, const SceneJob& job) {
   const auto engine = engine_of(token, dem::Level::own, job);
   const auto found = short_constants(*engine);
   for (const auto& constant : found) {
-    fmt::print("{} in {}: {} = {} is good to 16 digits only: a double on the way\n", name, token,
-               constant.what, constant.value);
+    show("{} in {}: {} = {} is good to 16 digits only: a double on the way\n", name, token, constant.what,
+         constant.value);
   }
   const auto doubles = audit_scene(job.loaded.scene);
   for (const double x : doubles) {
-    fmt::print("{} in {}: the double {} becomes a constant of the start state: good to 16 digits only\n",
-               name, token, x);
+    show("{} in {}: the double {} becomes a constant of the start state: good to 16 digits only\n", name,
+         token, x);
   }
   if (!found.empty() || !doubles.empty()) return Standing::regression;
-  fmt::print("{} in {}: every constant fills its precision\n", name, token);
+  show("{} in {}: every constant fills its precision\n", name, token);
   return Standing::pass;
 }
 
@@ -42,8 +43,8 @@ void add_scene_ladder_command(CLI::App& scene, Action& action) {
   auto o = std::make_shared<SceneOptions>();
   add_scene_verb(
       scene, action, "ladder", "Name constants of a scene that are good to the digits of a double only",
-      "  ulpgate scene ladder pendulum3 --types mpfr62\n"
-      "  ulpgate scene ladder pendulum3 --types mpfr62 --set mass=yade    # exit 1",
+      {"ulpgate scene ladder pendulum3 --types mpfr62",
+       "ulpgate scene ladder pendulum3 --types mpfr62 --set mass=yade    # exit 1"},
       o, [o](CLI::App& verb) { add_model_options(verb, *o); },
       [o] {
         const SceneTask task = make_task(*o, "scene ladder");
@@ -51,8 +52,8 @@ void add_scene_ladder_command(CLI::App& scene, Action& action) {
         std::size_t judged = 0;
         for (const auto& token : task.types) {
           if (!has_ladder(token)) {
-            fmt::print("{} in {}: the ladder needs a type of more digits than double\n",
-                       task.job.loaded.scene.name, token);
+            show("{} in {}: the ladder needs a type of more digits than double\n", task.job.loaded.scene.name,
+                 token);
             continue;
           }
           verdict |= ladder(token, task.job);

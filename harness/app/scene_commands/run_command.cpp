@@ -8,8 +8,8 @@ void add_scene_run_command(CLI::App& scene, Action& action) {
   auto o = std::make_shared<SceneOptions>();
   add_scene_verb(
       scene, action, "run", "Run a scene to its end and record it",
-      "  ulpgate scene run collision --types all\n"
-      "  ulpgate scene run pendulum3 --types mpfr62 --dt 1e-7 --record --out P --resume",
+      {"ulpgate scene run collision --types all",
+       "ulpgate scene run pendulum3 --types mpfr62 --dt 1e-7 --record --out P --resume"},
       o,
       [o](CLI::App& verb) {
         add_model_options(verb, *o);

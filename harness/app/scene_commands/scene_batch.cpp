@@ -6,13 +6,14 @@
 #include "harness/app/scenes/scene_output.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/store/context.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
 namespace {
 
 void print_row(const Json& j, const SceneJob& job, const dem::DemEngine& engine) {
-  fmt::print(
+  show(
       "{:<12} {:<16} steps {:>8}  t {:<10.6g} contacts {:>6}  kinetic_{} {:.10g} J  mean y {:.10g} m  state "
       "{}\n",
       j["scene"].get<std::string>(), j["type"].get<std::string>(), engine.iteration(), engine.time_s(),
@@ -22,7 +23,7 @@ void print_row(const Json& j, const SceneJob& job, const dem::DemEngine& engine)
 
 void print_energy(const SceneStatistics& s) {
   const auto slope = [](const std::optional<double>& x) { return x ? fmt::format("{:.2f}", *x) : "-"; };
-  fmt::print(
+  show(
       "  energy {:.10g} J at the start, largest error {:.3e} J (slope {}), with half-step velocities {:.3e} "
       "J "
       "(slope {})\n",
@@ -31,12 +32,12 @@ void print_energy(const SceneStatistics& s) {
 
 void print_divergence(const std::vector<Divergence>& divergence) {
   for (const auto& d : divergence) {
-    fmt::print("  step {:>8}: position {:.3e} m = {:.4g} ULP, velocity {:.3e} m/s = {:.4g} ULP{}\n", d.step,
-               d.position_error_m, d.position_error_ulp, d.velocity_error_m_per_s, d.velocity_error_ulp,
-               d.only_tested.size() + d.only_reference.size() == 0
-                   ? ""
-                   : fmt::format(", contacts only here{}, only in RealHP<4>{}", pair_names(d.only_tested),
-                                 pair_names(d.only_reference)));
+    show("  step {:>8}: position {:.3e} m = {:.4g} ULP, velocity {:.3e} m/s = {:.4g} ULP{}\n", d.step,
+         d.position_error_m, d.position_error_ulp, d.velocity_error_m_per_s, d.velocity_error_ulp,
+         d.only_tested.size() + d.only_reference.size() == 0
+             ? ""
+             : fmt::format(", contacts only here{}, only in RealHP<4>{}", pair_names(d.only_tested),
+                           pair_names(d.only_reference)));
   }
 }
 
@@ -91,7 +92,7 @@ Verdict run_batch(const SceneTask& task, const BatchRequest& batch) {
     if (!batch.json) {
       print_row(row, task.job, *run.engine);
       if (!run.engine->energy_names().empty()) print_energy(run.statistics);
-      if (task.job.collisions) fmt::print("{}", summary_text(run.collisions));
+      if (task.job.collisions) show("{}", summary_text(run.collisions));
       print_divergence(run.divergence);
     }
     text += row.dump() + "\n";

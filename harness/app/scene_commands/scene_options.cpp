@@ -8,6 +8,7 @@
 #include "harness/app/scene_commands/old_spellings.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
+#include "harness/app/terminal/help.hpp"
 
 namespace ulpgate::app {
 
@@ -23,10 +24,10 @@ CLI::Option* add_text(CLI::App& verb, const std::string& name, std::optional<std
 }  // namespace
 
 void add_scene_verb(CLI::App& scene, Action& action, const std::string& name, const std::string& purpose,
-                    const std::string& examples, const std::shared_ptr<SceneOptions>& o,
+                    const std::vector<std::string>& examples, const std::shared_ptr<SceneOptions>& o,
                     const std::function<void(CLI::App&)>& add_options, const std::function<Verdict()>& run) {
   auto* verb = scene.add_subcommand(name, purpose);
-  verb->footer("Examples:\n" + examples);
+  set_foot(*verb, examples);
   verb->allow_extras();
   verb->add_option("SCENE", o->scene.name, "a scene built in (`ulpgate list scenes`) or a TOML file")
       ->required();

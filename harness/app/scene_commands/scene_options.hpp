@@ -26,7 +26,7 @@ struct SceneOptions {
 // Adds a sub-verb with its purpose and two examples in its --help.  `run` is called with what is known to be
 // taken by the verb: words that it does not take are refused before.
 void add_scene_verb(CLI::App& scene, Action& action, const std::string& name, const std::string& purpose,
-                    const std::string& examples, const std::shared_ptr<SceneOptions>& o,
+                    const std::vector<std::string>& examples, const std::shared_ptr<SceneOptions>& o,
                     const std::function<void(CLI::App&)>& add_options, const std::function<Verdict()>& run);
 
 // --types, --set, --dt, --allow-large: every verb has them.

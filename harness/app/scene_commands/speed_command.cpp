@@ -11,6 +11,7 @@
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/store/records.hpp"
+#include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
 
@@ -75,14 +76,13 @@ Json row_of(const std::string& token, const SceneJob& job, const Repeats& done) 
 }
 
 void print_row(const Json& row) {
-  fmt::print(
-      "{:<12} {:<16} threads {}  {:>12.2f} +- {:.2f} iterations/s over {} of {} repeats of {} steps{}\n",
-      row["scene"].get<std::string>(), row["type"].get<std::string>(), row["threads"].get<int>(),
-      row["iterations_per_s"].get<double>(), row["deviation"].get<double>(), row["kept"].get<int>(),
-      row["repeats"].get<int>(), row["steps"].get<std::uint64_t>(),
-      row.contains("slowdown_against_double")
-          ? fmt::format(", {:.2f} times slower than double", row["slowdown_against_double"].get<double>())
-          : "");
+  show("{:<12} {:<16} threads {}  {:>12.2f} +- {:.2f} iterations/s over {} of {} repeats of {} steps{}\n",
+       row["scene"].get<std::string>(), row["type"].get<std::string>(), row["threads"].get<int>(),
+       row["iterations_per_s"].get<double>(), row["deviation"].get<double>(), row["kept"].get<int>(),
+       row["repeats"].get<int>(), row["steps"].get<std::uint64_t>(),
+       row.contains("slowdown_against_double")
+           ? fmt::format(", {:.2f} times slower than double", row["slowdown_against_double"].get<double>())
+           : "");
 }
 
 Verdict measure(const SceneTask& task, unsigned repeats, bool json) {
@@ -115,8 +115,8 @@ void add_scene_speed_command(CLI::App& scene, Action& action) {
   auto repeats = std::make_shared<unsigned>(10);
   add_scene_verb(
       scene, action, "speed", "Measure the iterations per second of a scene in each type",
-      "  ulpgate scene speed collision --types float,double,mpfr62\n"
-      "  ulpgate scene speed deposition --types all --steps 500 --repeats 10 --out T",
+      {"ulpgate scene speed collision --types float,double,mpfr62",
+       "ulpgate scene speed deposition --types all --steps 500 --repeats 10 --out T"},
       o,
       [o, repeats](CLI::App& verb) {
         add_model_options(verb, *o);

@@ -9,6 +9,7 @@
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/store/context.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/arguments/random_words.hpp"
 #include "harness/core/scenes/correlation.hpp"
 #include "kernels/scenes/reader/scene_reader.hpp"
@@ -66,21 +67,21 @@ std::string limit_of(const Truth& t, const Truth& digits, const Truth& step) {
 
 void print_reference(const SceneJob& job, const std::string& reference, double record_s, const Truth& digits,
                      const Truth& step) {
-  fmt::print(
+  show(
       "{}: t_s, the time for which angles correlate over {} with the {} run, chunks of {} records of {:g} "
       "s\n",
       job.loaded.scene.name, rule.limit, reference, rule.chunk, record_s);
-  fmt::print("{:<18} {:>10} s  against its own RealHP<4>\n", reference, shown(digits));
-  fmt::print("{:<18} {:>10} s  against half its step: beyond it, time-stepping is the limit\n", reference,
-             shown(step));
+  show("{:<18} {:>10} s  against its own RealHP<4>\n", reference, shown(digits));
+  show("{:<18} {:>10} s  against half its step: beyond it, time-stepping is the limit\n", reference,
+       shown(step));
 }
 
 void print_truth(const std::string& token, const Truth& t, const std::string& limit, const FinishedRun& run) {
-  fmt::print("{:<18} {:>10} s  limited by {}{}\n", token, shown(t), limit,
-             run.engine->energy_names().empty()
-                 ? ""
-                 : fmt::format("; largest energy error {:.3e} J, with half-step velocities {:.3e} J",
-                               run.statistics.averaged.largest(), run.statistics.raw.largest()));
+  show("{:<18} {:>10} s  limited by {}{}\n", token, shown(t), limit,
+       run.engine->energy_names().empty()
+           ? ""
+           : fmt::format("; largest energy error {:.3e} J, with half-step velocities {:.3e} J",
+                         run.statistics.averaged.largest(), run.statistics.raw.largest()));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "harness/app/shell/failure.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/subject/registry.hpp"
 
 namespace ulpgate::app {
@@ -103,29 +104,26 @@ std::string stress_line(const StressMeasurement& m, const std::string& plan) {
 }
 
 std::string stress_table(const StressJob& job) {
-  std::string text =
-      fmt::format("{:<62}", "S stable, I ill-conditioned, U unstable, W wrong, D diverged, R refused");
-  for (const auto& token : job.types) text += fmt::format(" {:>15}", token);
-  text += "\n";
+  std::vector<std::vector<std::string>> rows(1, {"case"});
+  for (const auto& token : job.types) rows.front().push_back(token);
   for (std::size_t i = 0; i < job.cases.size(); ++i) {
-    std::string cells;
-    std::string marks;
+    std::vector<std::string> row(1, job.cases[i]->key());
     bool any = false;
     for (std::size_t t = 0; t < job.types.size(); ++t) {
       const StressMeasurement& m = of(job.measurements[i * job.types.size() + t]);
       if (!m.row()) {
-        cells += fmt::format(" {:>15}", m.complete() ? "." : "");
+        row.emplace_back(m.complete() ? "." : "");
         continue;
       }
       any = true;
       const bool as_known = standing_of(m).as_known;
-      cells +=
-          fmt::format(" {:>15}", fmt::format("{}{}{}", as_known ? "" : "!", letter_of(m.row()->verdict),
-                                             m.row()->error ? fmt::format(" {:.1e}", *m.row()->error) : ""));
+      row.push_back(fmt::format("{}{}{}", as_known ? "" : "!", letter_of(m.row()->verdict),
+                                m.row()->error ? fmt::format(" {:.1e}", *m.row()->error) : ""));
     }
-    if (any) text += fmt::format("{:<62}{}\n", job.cases[i]->key(), cells);
+    if (any) rows.push_back(std::move(row));
   }
-  return text;
+  return "S stable, I ill-conditioned, U unstable, W wrong, D diverged, R refused\n" +
+         aligned(rows, "l" + std::string(job.types.size(), 'r'));
 }
 
 StressFindings judge_stress_job(const StressJob& job) {

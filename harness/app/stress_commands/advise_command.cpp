@@ -10,6 +10,7 @@
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
 #include "harness/app/stress_commands/stress_commands.hpp"
+#include "harness/app/terminal/help.hpp"
 #include "harness/core/arguments/random_words.hpp"
 
 namespace ulpgate::app {
@@ -88,11 +89,11 @@ std::string positive_and_finite(const std::string& text) {
 
 void add_advise_command(CLI::App& app, Action& action) {
   auto* verb = app.add_subcommand("advise", "Find the cheapest type, integrator and step that meet an error");
-  verb->footer(
-      "Examples:\n"
-      "  ulpgate advise pendulum3 --error 1e-10 --until 0.1\n"
-      "  ulpgate advise robertson --error 1e-12 --types double,long_double,float128\n"
-      "  ulpgate advise robertson --until 1e11 --error 1e-8 --time 1\n"
+  set_foot(
+      *verb,
+      {"ulpgate advise pendulum3 --error 1e-10 --until 0.1",
+       "ulpgate advise robertson --error 1e-12 --types double,long_double,float128",
+       "ulpgate advise robertson --until 1e11 --error 1e-8 --time 1"},
       "Errors are measured, never computed from an order.  Exit code 3 where no setting meets the error.");
   auto o = std::make_shared<AdviceOptions>();
   const CLI::Validator positive(positive_and_finite, "NUMBER");

@@ -12,15 +12,31 @@
 #include "harness/app/stress/stress_output.hpp"
 #include "harness/app/stress/truth_table.hpp"
 #include "harness/app/stress_commands/stress_commands.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/trajectories/truth.hpp"
 
 namespace ulpgate::app {
 
 namespace {
 
+// Before the table, which is long.
+void say_summary(const StressFindings& findings) {
+  const std::string line = fmt::format("ulpgate: stress: {} rows judged, {} not as known", findings.judged,
+                                       findings.unexplained.size());
+  const Paint paint = findings.unexplained.empty() ? Paint::good : Paint::bad;
+  fmt::print(stderr, "{}\n", painted(paint, line, stderr));
+}
+
 // What a finished run comes to.
 Verdict report(const StressFindings& findings, const StressOptions& o) {
-  for (const auto& line : findings.unexplained) fmt::print(o.json ? stderr : stdout, "FAIL {}\n", line);
+  for (const auto& line : findings.unexplained) {
+    if (o.json) {
+      fmt::print(stderr, "FAIL {}\n", line);
+    } else {
+      show("{} {}\n", painted(Paint::bad, "FAIL"), line);
+    }
+  }
   if (!findings.unexplained.empty()) return Standing::regression;
   if (findings.judged > 0) return Standing::pass;
   throw Failure(Standing::nothing_measured, "nothing measured: none of the cases exists in one of the types");
@@ -45,7 +61,7 @@ std::string records_of(const StressJob& job) {
 }
 
 Verdict list_cases(const StressOptions& o) {
-  for (const StressCase* c : select_cases(o.cases, o.kinds)) fmt::print("{:<62} {}\n", c->key(), c->title);
+  for (const StressCase* c : select_cases(o.cases, o.kinds)) show("{:<62} {}\n", c->key(), c->title);
   return Standing::pass;
 }
 
@@ -78,7 +94,12 @@ Verdict run_stress(const StressOptions& o) {
     out->finish(context, complete);
     if (complete) log->remove();
   }
-  fmt::print("{}", o.json ? text : stress_table(job));
+  if (complete) say_summary(findings);
+  if (o.json) {
+    fmt::print("{}", text);
+  } else {
+    show_text(stress_table(job));
+  }
   if (complete) return report(findings, o);
   throw Failure(Standing::incomplete,
                 log ? fmt::format("interrupted; what was done is in {}; --resume goes on", o.out)
@@ -89,6 +110,7 @@ Verdict run_stress(const StressOptions& o) {
 
 void add_stress_command(CLI::App& app, Action& action) {
   auto* verb = app.add_subcommand("stress", "Run stiff and extreme cases in every type, each with a verdict");
+  set_foot(*verb, {"ulpgate stress --kinds formula --types float,double", "ulpgate stress --list"});
   auto o = std::make_shared<StressOptions>();
   verb->add_option("--cases", o->cases, "all, or names (--list), also name/form and kind/name/form")
       ->capture_default_str();

@@ -14,6 +14,8 @@
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/context.hpp"
 #include "harness/app/stress_commands/stress_commands.hpp"
+#include "harness/app/terminal/help.hpp"
+#include "harness/app/terminal/terminal.hpp"
 #include "harness/core/trajectories/truth.hpp"
 
 namespace ulpgate::app {
@@ -30,7 +32,7 @@ std::vector<WorkPrecisionRow> rows_of(const WorkPrecisionJob& job) {
 void show(const std::vector<WorkPrecisionRow>& rows, const SettingTimes& times, const std::string& plan,
           bool json) {
   if (json) {
-    fmt::print("{}{}{}", row_lines(rows, plan), fit_lines(rows, plan), timing_lines(rows, times, plan));
+    show("{}{}{}", row_lines(rows, plan), fit_lines(rows, plan), timing_lines(rows, times, plan));
   } else {
     print_work_precision(rows, times);
   }
@@ -106,14 +108,13 @@ Verdict run_work_precision(const WorkPrecisionOptions& o) {
 void add_work_precision_command(CLI::App& app, Action& action) {
   auto* verb = app.add_subcommand("work-precision",
                                   "Measure error against run time: functions, kernels, trajectories, scenes");
-  verb->footer(
-      "Examples:\n"
-      "  ulpgate work-precision --cases kepler --integrators leapfrog,yoshida8,gauss4 --types "
-      "double,float128\n"
-      "  ulpgate work-precision --cases pendulum3 --until 0.1 --types float,double --out W\n"
-      "  ulpgate work-precision --cases robertson --until 1e11 --dt plan:1e-3..1e-12 --integrators "
-      "radau5,rodas3\n"
-      "  ulpgate work-precision --subjects sin,exp,kernel --types float,double\n"
+  set_foot(
+      *verb,
+      {"ulpgate work-precision --cases kepler --integrators leapfrog,yoshida8,gauss4 --types double,float128",
+       "ulpgate work-precision --cases pendulum3 --until 0.1 --types float,double --out W",
+       "ulpgate work-precision --cases robertson --until 1e11 --dt plan:1e-3..1e-12 --integrators "
+       "radau5,rodas3",
+       "ulpgate work-precision --subjects sin,exp,kernel --types float,double"},
       "Errors are relative: of a stiff problem's state component by component, of another's to its largest "
       "component, of a scene to its size.");
   auto o = std::make_shared<WorkPrecisionOptions>();

@@ -25,7 +25,7 @@ def printed(standing):
 
 
 def _verdict(standing):
-    if standing.findings is None:
+    if standing.gate is None:
         return [("Not held to budgets.", False)]
     wrong = standing.wrong_kind
     known = f" {wrong:,} results of the wrong kind are known of the libraries: the budgets have them."
@@ -33,6 +33,12 @@ def _verdict(standing):
     if not failures and not standing.complete:
         text = "NOT PASSED: the run is incomplete, and what is missing was not judged."
         return [(text, True)]
+    if not failures and standing.gate.exit_code != 0:
+        why = "; ".join(standing.gate.remarks) or standing.gate.verdict
+        return [
+            ("NOT PASSED: nothing failed, and there is no verdict.", True),
+            (why, False),
+        ]
     if not failures:
         text = f"PASSED: all {standing.rows:,} rows are within their budgets."
         return [(text + known * bool(wrong), False)]

@@ -28,10 +28,20 @@ class Change:
 
 
 @dataclass(frozen=True)
-class Standing:
-    """`findings` are None where no gate was asked, `changes` where there is no earlier run."""
+class Gate:
+    """What a gate came to: its exit code, its verdict in words, findings, and what is wrong beside them."""
 
-    findings: object
+    exit_code: int
+    verdict: str
+    findings: list
+    remarks: tuple = ()
+
+
+@dataclass(frozen=True)
+class Standing:
+    """`gate` is None where none was asked, `changes` where there is no earlier run."""
+
+    gate: object
     changes: object
     rows: int
     before: dict
@@ -41,29 +51,46 @@ class Standing:
     @property
     def failures(self):
         """What the gate holds against the run."""
-        notes = (f for f in self.findings or () if f["kind"].lower() not in _NOTES)
-        return list(notes)
+        findings = self.gate.findings if self.gate else ()
+        return [f for f in findings if f["kind"].lower() not in _NOTES]
 
     def of_change(self, change):
         """The changes of one sort."""
         return [one for one in self.changes or () if one.change == change]
 
 
+def _is_gate(found):
+    """Whether it has what is read of it here."""
+    if not isinstance(found, dict):
+        return False
+    sets, findings = found.get("sets"), found.get("findings")
+    return (
+        isinstance(found.get("exit_code"), int)
+        and isinstance(found.get("verdict"), str)
+        and isinstance(sets, list)
+        and all(
+            isinstance(s, dict) and isinstance(s.get("remarks"), list) for s in sets
+        )
+        and isinstance(findings, list)
+        and all(
+            isinstance(f, dict) and all(isinstance(f.get(k), str) for k in _FIELDS)
+            for f in findings
+        )
+    )
+
+
 def load_gate(path):
-    """The findings in a file that `ulpgate gate --json` printed."""
+    """The Gate in a file that `ulpgate gate --json` printed."""
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InvalidInput(f"{path}: {error.strerror}") from error
     except ValueError as error:
         raise InvalidInput(f"{path}: {error}") from error
-    good = isinstance(found, list) and all(
-        isinstance(f, dict) and all(isinstance(f.get(k), str) for k in _FIELDS)
-        for f in found
-    )
-    if not good:
+    if not _is_gate(found):
         raise InvalidInput(f"{path}: not what `ulpgate gate --json` prints")
-    return found
+    remarks = [said for one in found["sets"] for said in one["remarks"]]
+    return Gate(found["exit_code"], found["verdict"], found["findings"], tuple(remarks))
 
 
 def _cells(run):

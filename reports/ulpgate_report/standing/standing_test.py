@@ -23,6 +23,24 @@ FINDING = {
 NOTE = {**FINDING, "kind": "note", "message": "could be 0.4"}
 
 
+def _gate(*findings, exit_code=None):
+    """What the gate prints."""
+    failed = any(one["kind"] != "note" for one in findings)
+    remarks = ["no context"] if exit_code else []
+    return {
+        "exit_code": int(failed) if exit_code is None else exit_code,
+        "verdict": "in words",
+        "sets": [{"records": "now", "remarks": remarks}],
+        "findings": list(findings),
+    }
+
+
+def _loaded(tmp_path, *findings, exit_code=None):
+    file = tmp_path / "gate.json"
+    file.write_text(json.dumps(_gate(*findings, exit_code=exit_code)))
+    return standing.load_gate(file)
+
+
 def _write(place, change=None):
     context = sample_records.context(["sin", "ctan"])
     rows = sample_records.math_records(context)
@@ -50,26 +68,33 @@ def test_nothing_is_said_where_nothing_was_asked(tmp_path):
 @pytest.mark.parametrize(
     "gate, first, alert",
     [
-        ([], "PASSED: all", False),
-        ([NOTE], "PASSED: all", False),
-        ([FINDING, NOTE], "FAILED: 1 finding (fail 1).", True),
+        ((), "PASSED: all", False),
+        ((NOTE,), "PASSED: all", False),
+        ((FINDING, NOTE), "FAILED: 1 finding (fail 1).", True),
         (None, "Not held to budgets.", False),
     ],
     ids=["clean", "a limit that could be lower", "a failure", "no gate"],
 )
 def test_the_verdict_stands_first(tmp_path, gate, first, alert):
-    said = kind.headline(_standing(tmp_path, gate))
+    loaded = None if gate is None else _loaded(tmp_path, *gate)
+    said = kind.headline(_standing(tmp_path, loaded))
     assert said[0][0].startswith(first) and said[0][1] == alert
 
 
+def test_a_gate_that_judged_nothing_has_not_passed(tmp_path):
+    said = kind.headline(_standing(tmp_path, _loaded(tmp_path, exit_code=3)))
+    assert said[0] == ("NOT PASSED: nothing failed, and there is no verdict.", True)
+    assert said[1] == ("no context", False)
+
+
 def test_the_same_run_has_changed_nothing(tmp_path):
-    found = _standing(tmp_path, [])
+    found = _standing(tmp_path)
     assert found.changes == []
     assert ("no row", False) in kind.headline(found)
 
 
 def test_a_row_that_is_worse_is_named_with_both_errors(tmp_path):
-    found = _standing(tmp_path, [], _worse)
+    found = _standing(tmp_path, None, _worse)
     (change,) = found.changes
     assert change.change == standing.WORSE
     assert change.after > change.before
@@ -100,14 +125,15 @@ def test_a_row_of_which_nothing_is_judged_any_more_is_worse():
 
 
 def test_an_incomplete_run_has_not_passed():
-    said = kind.headline(standing.Standing([], None, 3, {}, 0, False))
+    passed = standing.Gate(0, "passes", [])
+    said = kind.headline(standing.Standing(passed, None, 3, {}, 0, False))
     assert said[0][0].startswith("NOT PASSED") and said[0][1]
 
 
 @pytest.mark.parametrize(
     "content",
-    ["{", "{}", '[{"kind": 1}]', None],
-    ids=["torn", "object", "kind", "none"],
+    ["{", "{}", "[]", json.dumps(_gate({"kind": 1})), None],
+    ids=["torn", "object", "list", "kind", "none"],
 )
 def test_a_file_that_is_none_of_the_gate_is_named(tmp_path, content):
     file = tmp_path / "gate.json"
@@ -119,7 +145,7 @@ def test_a_file_that_is_none_of_the_gate_is_named(tmp_path, content):
 
 def test_the_page_answers_first(tmp_path):
     now, before = _write(tmp_path / "now", _worse), _write(tmp_path / "before")
-    (tmp_path / "gate.json").write_text(json.dumps([FINDING]))
+    (tmp_path / "gate.json").write_text(json.dumps(_gate(FINDING)))
     words = ["--gate", str(tmp_path / "gate.json"), "--before", str(before)]
     assert cli.main([str(now), *words, "--out", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out" / "index.html").read_text("utf-8")
