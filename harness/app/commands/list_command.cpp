@@ -88,7 +88,7 @@ void add_strata(const Strata& strata, const char* what, bool json, Json& rows, T
     if (json) {
       rows.push_back({{"of", what}, {"stratum", s.name}, {"description", s.description}});
     } else {
-      table.push_back({what, s.name, s.description});
+      table.push_back({what, std::string(s.name), std::string(s.description)});
     }
   }
 }

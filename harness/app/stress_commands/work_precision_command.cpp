@@ -29,8 +29,8 @@ std::vector<WorkPrecisionRow> rows_of(const WorkPrecisionJob& job) {
   return rows;
 }
 
-void show(const std::vector<WorkPrecisionRow>& rows, const SettingTimes& times, const std::string& plan,
-          bool json) {
+void show_rows(const std::vector<WorkPrecisionRow>& rows, const SettingTimes& times, const std::string& plan,
+               bool json) {
   if (json) {
     show("{}{}{}", row_lines(rows, plan), fit_lines(rows, plan), timing_lines(rows, times, plan));
   } else {
@@ -56,7 +56,7 @@ Verdict look_again(const std::filesystem::path& out, bool json) {
     by_line.emplace(std::stoull(known.place.substr(known.place.rfind(':') + 1)), known.row);
   for (auto& [line, row] : by_line) rows.push_back(std::move(row));
   fmt::print(stderr, "ulpgate: {} is complete already\n", out.string());
-  show(rows, read_times(out / times_file, context.at("plan")), context.at("plan"), json);
+  show_rows(rows, read_times(out / times_file, context.at("plan")), context.at("plan"), json);
   return verdict_of(rows);
 }
 
@@ -96,7 +96,7 @@ Verdict run_work_precision(const WorkPrecisionOptions& o) {
     out->finish(context, complete);
     if (complete) log->remove();
   }
-  show(rows, times, job.plan, o.json);
+  show_rows(rows, times, job.plan, o.json);
   if (complete) return verdict_of(rows);
   throw Failure(Standing::incomplete,
                 out ? fmt::format("interrupted; what was done is in {}; --resume goes on", o.out)
