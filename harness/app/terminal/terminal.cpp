@@ -79,7 +79,7 @@ Places places_of(std::string_view line, std::size_t width, std::size_t command) 
     } else {
       // The first text is no column that the rest could go below of: it goes in by two.
       if (!text) found.indent = column + 2;
-      if (text && spaces >= 2 && column <= width * 2 / 3) found.indent = column;
+      if (text && spaces >= 2 && column <= width / 2) found.indent = column;
       text = true;
       spaces = 0;
     }
@@ -101,7 +101,10 @@ std::string fitted_line(std::string_view line, std::size_t width) {
     if (places.last == 0) break;
     const std::size_t end = rest.find_last_not_of(' ', places.last);
     text += rest.substr(0, end + 1) + "\n";
-    rest = std::string(indent, ' ') + rest.substr(rest.find_first_not_of(' ', places.last));
+    rest.erase(0, rest.find_first_not_of(' ', places.last));
+    // A long word stands further to the left rather than beyond the edge.
+    const std::size_t word = columns_of(std::string_view(rest).substr(0, rest.find(' ')));
+    rest.insert(0, std::min(indent, width > word ? width - word : 0), ' ');
   }
   return text + rest;
 }

@@ -22,7 +22,7 @@ std::string painted(Paint paint, const std::string& text, std::FILE* stream = st
 std::size_t columns_of(std::string_view text);
 
 // Every line that is wider than `width` columns is broken between words and goes on below its last column
-// (text after two spaces or more) of the first two thirds.  Text from "ulpgate " on is a command and stays
+// (text after two spaces or more) of the left half.  Text from "ulpgate " on is a command and stays
 // whole, as does a word that is wider than the line.
 std::string fitted(std::string_view text, std::size_t width);
 
