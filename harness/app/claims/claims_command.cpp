@@ -225,7 +225,7 @@ void add_claims_command(CLI::App& app, Action& action) {
   auto* claims = app.add_subcommand(
       "claims",
       "Hold the documented error bounds of libraries against what strata, search and all floats find");
-  set_foot(*claims, {"ulpgate claims libm --functions exp,log --out out/claims",
+  set_foot(*claims, {"ulpgate claims libm --functions fma,fmod --out out/claims",
                      "ulpgate claims sleef --types float --symbols avx2 --exhaustive --out out/sleef"});
   auto o = std::make_shared<ClaimsOptions>();
   claims->add_option("LIST", o->list, "sleef, libmvec, libm, or a TOML file of implementations with claims")
