@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "reference/double_double/double_double.hpp"
 #include "reference/native/native_functions.hpp"
 
 namespace ulpgate {
@@ -18,7 +19,7 @@ concept NativeBits = std::same_as<T, float> || std::same_as<T, double> ||
 #ifdef ULPGATE_HAVE_FLOAT128
                      || std::same_as<T, Binary128>
 #endif
-    ;
+                     || std::same_as<T, DoubleDouble>;
 
 struct NumberBits {
   int exponent;            // of the binade, where the number is normal
@@ -45,6 +46,13 @@ template <NativeBits T>
     const int e = head & 0x7fff;
     return {e - 16383, e != 0 && e != 0x7fff, (significand & 1U) != 0,
             static_cast<std::uint32_t>(significand >> 31U)};
+  } else if constexpr (std::same_as<T, DoubleDouble>) {
+    // Below hi, where lo is of the other sign, lies the number before it: of a power of two that of another
+    // binade.
+    const bool below = x.lo != 0 && (x.lo < 0) != (x.hi < 0);
+    const auto u = std::bit_cast<std::uint64_t>(x.hi) - (below ? 1U : 0U);
+    const int e = static_cast<int>((u >> 52U) & 0x7ffU);
+    return {e - 1023, e != 0 && e != 0x7ff, false, static_cast<std::uint32_t>(u >> 20U)};
   } else {
     const auto u = std::bit_cast<unsigned __int128>(x);
     const auto high = static_cast<std::uint64_t>(u >> 64U);
@@ -59,6 +67,8 @@ inline constexpr int significand_bits = std::numeric_limits<T>::digits;
 template <>
 inline constexpr int significand_bits<Binary128> = 113;
 #endif
+template <>
+inline constexpr int significand_bits<DoubleDouble> = double_double_bits;
 
 // 2^e for exponents of normal doubles.
 [[nodiscard]] constexpr double power_of_two(int e) {

@@ -11,6 +11,7 @@
 #include "harness/core/judging/judging.hpp"
 #include "harness/core/judging/native_stage.hpp"
 #include "harness/core/judging/reference_disagreement.hpp"
+#include "reference/double_double/double_double_functions.hpp"
 #include "reference/text/text.hpp"
 
 namespace ulpgate {
@@ -19,6 +20,7 @@ namespace ulpgate {
 struct ScreenStages {
   BoundedFunction<double> binary64 = nullptr;
   BoundedFunction<long double> x87_extended = nullptr;
+  BoundedFunction<DoubleDouble> double_double = nullptr;
 #ifdef ULPGATE_HAVE_FLOAT128
   BoundedFunction<Binary128> binary128 = nullptr;
 #endif
@@ -32,6 +34,7 @@ struct ScreenStages {
   stages.binary64 = bounded_function<double>(f.id);
   if constexpr (std::numeric_limits<long double>::digits == 64)
     stages.x87_extended = bounded_function<long double>(f.id);
+  stages.double_double = double_double_function(f.id);
 #ifdef ULPGATE_HAVE_FLOAT128
   stages.binary128 = bounded_function<Binary128>(f.id);
 #endif
@@ -90,6 +93,9 @@ class ScreenedJudging {
       return std::tuple();
     }
   }
+  static auto double_double_stage(FunctionId f, const ScreenStages& s) {
+    return std::tuple(NativeStage<Real, DoubleDouble, Stage::double_double>(f, s.double_double));
+  }
   static auto binary128_stage([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
 #ifdef ULPGATE_HAVE_FLOAT128
     return std::tuple(NativeStage<Real, Binary128, Stage::binary128>(f, s.binary128));
@@ -102,9 +108,9 @@ class ScreenedJudging {
       return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
                             x87_stage(f, s), binary128_stage(f, s));
     } else if constexpr (std::same_as<Real, double>) {
-      return std::tuple_cat(x87_stage(f, s), binary128_stage(f, s));
+      return std::tuple_cat(x87_stage(f, s), double_double_stage(f, s), binary128_stage(f, s));
     } else if constexpr (std::same_as<Real, long double> && NativeBits<long double>) {
-      return binary128_stage(f, s);
+      return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, s));
     } else {
       return std::tuple();
     }

@@ -1,0 +1,36 @@
+// Constants and tables of DoubleDouble numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "reference/double_double/double_double.hpp"
+
+namespace ulpgate::dd {
+
+// Each entry of a DoubleDouble is within 2^-106 of itself of the exact number; all are computed by MPFR when
+// the program first asks for them, so that no digit of them was typed.
+struct Constants {
+  // ln 2 / 64 in pieces: 36 bits, then 53 each.
+  double ln2_64_1, ln2_64_2, ln2_64_3;
+  double inverse_ln2_64;  // 64 / ln 2
+  DoubleDouble ln2, inverse_ln2, inverse_ln10;
+  // 2^(j/64) and 2^(j/64) - 1 for j = i - 32.
+  std::array<DoubleDouble, 65> power, power_less_1;
+  // pi / 2 in pieces of 53 bits, and 2 / pi.
+  std::array<double, 4> half_pi;
+  double inverse_half_pi;
+  DoubleDouble half_pi_dd, pi_dd;
+  // Sine and cosine of i / 32.
+  std::array<DoubleDouble, 27> sine, cosine;
+  // 1 / n!
+  std::array<DoubleDouble, 28> inverse_factorial;
+  // 1 / n
+  std::array<DoubleDouble, 40> inverse;
+  // 2 / pi = sum of words[i] 2^(-64 (i + 1)).
+  std::array<std::uint64_t, 24> two_over_pi;
+};
+
+[[nodiscard]] const Constants& constants();
+
+}  // namespace ulpgate::dd

@@ -1,0 +1,27 @@
+// Functions in double-double as references of binary64 and x87 numbers.
+#pragma once
+
+#include <cstddef>
+
+#include "reference/double_double/double_double.hpp"
+#include "reference/functions/function_info.hpp"
+
+namespace ulpgate {
+
+// Evaluates f at `count` points, as bounded_function does (native_functions.hpp): |results[i] - f(args of i)|
+// is at most bounds[i] ulp of 2^-99 of the power of two below results[i].  A negative bound says that nothing
+// is known: of arguments and results that are zero, not finite or near the ends of the range, of results next
+// to a zero of a function, and of functions that are not here.
+using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* results, double* bounds,
+                                      std::size_t count, int argument_bits);
+
+// nullptr where there is none.  The bounds are derived where the functions stand (functions.inc), for round
+// to nearest; they assume of the C library's double functions atan, atan2, asin, acos, log and cbrt that they
+// are right to 2^-50.
+[[nodiscard]] DoubleDoubleFunction double_double_function(FunctionId id);
+
+// Of each instruction set that this processor has, the slowest first; for tests.
+[[nodiscard]] std::size_t double_double_levels();
+[[nodiscard]] DoubleDoubleFunction double_double_function(FunctionId id, std::size_t level);
+
+}  // namespace ulpgate

@@ -1,0 +1,153 @@
+// Tests of double-double functions: MPFR finds none beyond its bound, and none gives up where it should not.
+#include "reference/double_double/double_double_functions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "reference/double_double/constants.hpp"
+#include "reference/oracle/oracle.hpp"
+
+namespace ulpgate {
+namespace {
+
+// Arguments of all sizes that a type may have: doubles, and every other one of 64 bits.
+class Arguments {
+ public:
+  DoubleDouble next() {
+    double x = 0;
+    switch (count_++ % 5) {
+      case 0:
+        x = 200 * unit() - 100;
+        break;
+      case 1:
+        x = of_exponent(static_cast<int>(words_() % 80) - 60);
+        break;
+      case 2:
+        x = 2 * unit() - 1;
+        break;
+      case 3:
+        x = of_exponent(static_cast<int>(words_() % 2000) - 1000);
+        break;
+      default:
+        // Next to multiples of pi/2 and of ln 2, and next to 1.
+        x = std::nearbyint(100 * unit()) * (words_() % 2 == 0 ? 0x1.921fb54442d18p+0 : 0x1.62e42fefa39efp-1);
+        if (words_() % 3 == 0) x = 1 + of_exponent(-static_cast<int>(words_() % 52));
+        break;
+    }
+    DoubleDouble value{x, 0};
+    if (words_() % 2 == 0)
+      value = DoubleDouble(static_cast<long double>(x) * (1 + static_cast<long double>(unit()) * 0x1p-53L));
+    return value;
+  }
+
+ private:
+  double unit() { return static_cast<double>(words_() >> 11U) * 0x1p-53; }
+  double of_exponent(int e) {
+    const double x = std::ldexp(1 + unit(), e);
+    return words_() % 2 == 0 ? x : -x;
+  }
+  std::mt19937_64 words_{7};
+  unsigned count_ = 0;
+};
+
+void set(mpfr_ptr to, DoubleDouble x) {
+  mpfr_set_d(to, x.hi, MPFR_RNDN);
+  mpfr_add_d(to, to, x.lo, MPFR_RNDN);
+}
+
+// |value - exact| in ulp of the bounds.
+double ulps(DoubleDouble value, mpfr_srcptr exact) {
+  MpfrValue difference(400);
+  mpfr_sub_d(difference, exact, value.hi, MPFR_RNDN);
+  mpfr_sub_d(difference, difference, value.lo, MPFR_RNDN);
+  int e = std::ilogb(value.hi);
+  if (value.hi == std::ldexp(1.0, e) && value.lo < 0) --e;
+  mpfr_mul_2si(difference, difference, double_double_bits - 1 - e, MPFR_RNDN);
+  return std::fabs(mpfr_get_d(difference, MPFR_RNDA));
+}
+
+std::size_t arity_of(const FunctionInfo& f) {
+  return static_cast<std::size_t>(f.arity);
+}
+
+TEST(DoubleDoubleFunctions, KeepTheirBoundsOnEveryProcessor) {
+  constexpr std::size_t count = 4000;
+  const WideExponentRange wide;
+  std::size_t functions = 0;
+  for (const FunctionInfo& f : all_functions()) {
+    if (double_double_function(f.id) == nullptr) continue;
+    ++functions;
+    Arguments drawn;
+    std::vector<DoubleDouble> args(count * arity_of(f));
+    for (auto& a : args) a = drawn.next();
+    std::vector<MpfrValue> exact_args;
+    for (std::size_t k = 0; k < arity_of(f); ++k) exact_args.emplace_back(2200);
+    std::vector<MpfrValue> exact;
+    exact.emplace_back(400);
+    for (std::size_t level = 0; level < double_double_levels(); ++level) {
+      std::vector<DoubleDouble> results(count);
+      std::vector<double> bounds(count);
+      double_double_function(f.id, level)(args.data(), results.data(), bounds.data(), count, 64);
+      std::size_t known = 0;
+      double largest = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (bounds[i] < 0) continue;
+        ++known;
+        ASSERT_LE(bounds[i], 0x1p20) << "the stage looks at 32 bits for a power of two";
+        for (std::size_t k = 0; k < arity_of(f); ++k) set(exact_args[k], args[i * arity_of(f) + k]);
+        exact_value(f, exact_args, exact);
+        const double error = ulps(results[i], exact[0]);
+        EXPECT_LE(error, bounds[i]) << f.name << std::hexfloat << ' ' << args[i * arity_of(f)].hi;
+        largest = std::max(largest, error / bounds[i]);
+      }
+      // Of numbers of all sizes acosh has a fifth.
+      EXPECT_GT(known, count / 8) << f.name;
+      EXPECT_LT(largest, 0.5) << f.name << ": its bound is close to what is seen";
+    }
+  }
+  EXPECT_EQ(functions, 24U);
+}
+
+TEST(DoubleDoubleFunctions, KnowNothingOfWhatIsNoNumber) {
+  for (const FunctionInfo& f : all_functions()) {
+    if (double_double_function(f.id) == nullptr) continue;
+    for (const double x : {0.0, -0.0, HUGE_VAL, -HUGE_VAL, std::nan(""), 0x1p-1074, 0x1.fffffffffffffp1023}) {
+      const std::array<DoubleDouble, 2> args = {DoubleDouble{x, 0}, DoubleDouble{x, 0}};
+      DoubleDouble result;
+      double bound = 0;
+      double_double_function(f.id)(args.data(), &result, &bound, 1, 53);
+      if (bound < 0) continue;
+      // Where something is known after all, it is a number: exp(0) = 1.
+      EXPECT_TRUE(std::isfinite(result.hi)) << f.name << '(' << x << ')';
+      EXPECT_GE(std::fabs(result.hi), 0x1p-900) << f.name << '(' << x << ')';
+    }
+  }
+}
+
+TEST(DoubleDouble, TakesNumbersOf64BitsWithoutError) {
+  const long double x = 1 + 0x1p-63L;
+  const DoubleDouble d(x);
+  EXPECT_EQ(d.hi, 1);
+  EXPECT_EQ(d.lo, 0x1p-63);
+  EXPECT_EQ(static_cast<long double>(d), x);
+  EXPECT_EQ((d - DoubleDouble(1)).hi, 0x1p-63);
+  EXPECT_TRUE(DoubleDouble(1) < d);
+  const DoubleDouble infinite(static_cast<long double>(HUGE_VAL));
+  EXPECT_EQ(infinite.lo, 0) << "no NaN behind an infinity";
+}
+
+TEST(DoubleDoubleConstants, AreWhatMpfrSays) {
+  const auto& c = dd::constants();
+  EXPECT_EQ(c.power[32].hi, 1);
+  EXPECT_EQ(c.power[32].lo, 0);
+  EXPECT_EQ(c.power_less_1[32].hi, 0);
+  EXPECT_EQ(c.ln2.hi, 0x1.62e42fefa39efp-1);
+  EXPECT_EQ(c.half_pi[0], 0x1.921fb54442d18p+0);
+  EXPECT_EQ(c.two_over_pi[0], 0xa2f9836e4e441529U);
+  EXPECT_EQ(c.two_over_pi[1], 0xfc2757d1f534ddc0U);
+}
+
+}  // namespace
+}  // namespace ulpgate
