@@ -47,9 +47,15 @@ ULPGATE_INLINE DoubleDouble two_product(double a, double b) {
   const double p = a * b;
   return {p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
+// clang-format off: each rests on those before it
 #include "reference/double_double/arithmetic.inc"
+#include "reference/double_double/bounded.inc"
+#include "reference/double_double/exponentials.inc"
+#include "reference/double_double/logarithms.inc"
+#include "reference/double_double/angles.inc"
+#include "reference/double_double/inverse_angles.inc"
 #include "reference/double_double/batches.inc"
-#include "reference/double_double/functions.inc"
+// clang-format on
 }  // namespace baseline
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -61,9 +67,15 @@ ULPGATE_INLINE DoubleDouble two_product(double a, double b) {
   const double p = a * b;
   return {p, __builtin_fma(a, b, -p)};
 }
+// clang-format off: each rests on those before it
 #include "reference/double_double/arithmetic.inc"
+#include "reference/double_double/bounded.inc"
+#include "reference/double_double/exponentials.inc"
+#include "reference/double_double/logarithms.inc"
+#include "reference/double_double/angles.inc"
+#include "reference/double_double/inverse_angles.inc"
 #include "reference/double_double/batches.inc"
-#include "reference/double_double/functions.inc"
+// clang-format on
 }  // namespace fma
 #pragma GCC pop_options
 #endif
