@@ -15,6 +15,10 @@ COLUMN_INCHES = 0.56
 LABEL_INCHES = 1.25
 # More rows than these go to a second block beside the first.
 ROWS_OF_ONE_BLOCK = 30
+# The least that a cell and a row take; text is that much smaller.
+LEAST_CELL_INCHES, LOW_ROW_INCHES = 0.33, 0.125
+# More rows than these in one block are low ones.
+MOST_FULL_ROWS = 46
 
 
 @dataclass(frozen=True)
@@ -36,9 +40,18 @@ class Grid:
     label_inches: float = LABEL_INCHES
 
 
+def _cell_inches(grid, blocks):
+    """What is left for a cell where so many blocks share the width, at most COLUMN_INCHES."""
+    room = figure_style.width(figure_style.PAGE_INCHES) / blocks - grid.label_inches
+    return min(COLUMN_INCHES, room / len(grid.columns))
+
+
 def _blocks(grid):
     rows = grid.rows
     if len(rows) <= ROWS_OF_ONE_BLOCK or figure_style.is_one_column():
+        return [rows]
+    # Two that do not fit beside each other would be drawn too small to read.
+    if _cell_inches(grid, 2) < LEAST_CELL_INCHES:
         return [rows]
     half = math.ceil(len(rows) / 2)
     # The parts of one function stay together.
@@ -64,7 +77,7 @@ def _draw_mismatch(axes, x, y):
     )
 
 
-def _draw_cell(axes, x, y, cell, scale):
+def _draw_cell(axes, x, y, cell, scale, size=6):
     value, marked = cell or (None, False)
     if value is None:
         axes.text(x + 0.5, y + 0.5, "-", ha="center", va="center", color="0.5", size=6)
@@ -89,7 +102,7 @@ def _draw_cell(axes, x, y, cell, scale):
             numbers.short_ulp(value),
             ha="center",
             va="center",
-            size=6,
+            size=size,
             color=scale.foreground(value),
             bbox=box if infinite else None,
         )
@@ -97,13 +110,13 @@ def _draw_cell(axes, x, y, cell, scale):
         _draw_mismatch(axes, x, y)
 
 
-def _draw_block(axes, rows, grid):
+def _draw_block(axes, rows, grid, size):
     tokens = grid.columns
     axes.set_xlim(0, len(tokens))
     axes.set_ylim(len(rows), 0)
     for y, row in enumerate(rows):
         for x, token in enumerate(tokens):
-            _draw_cell(axes, x, y, grid.cell_of(row, token), grid.scale)
+            _draw_cell(axes, x, y, grid.cell_of(row, token), grid.scale, size)
         if y and grid.group_of(row) != grid.group_of(rows[y - 1]):
             axes.axhline(y, color="black", linewidth=0.8, zorder=4)
     axes.set_yticks(
@@ -158,19 +171,19 @@ def draw(grid):
     """The figure."""
     blocks = _blocks(grid)
     columns = len(grid.columns)
-    cell = COLUMN_INCHES
-    if figure_style.is_one_column():
-        room = figure_style.COLUMN_INCHES - grid.label_inches
-        cell = min(cell, max(0.3, room / columns))
+    least = 0.3 if figure_style.is_one_column() else LEAST_CELL_INCHES
+    cell = max(least, _cell_inches(grid, len(blocks)))
     block_width = grid.label_inches + columns * cell
-    height = max(map(len, blocks)) * ROW_INCHES
+    longest = max(map(len, blocks))
+    row_inches = ROW_INCHES if longest <= MOST_FULL_ROWS else LOW_ROW_INCHES
+    height = longest * row_inches
     below, above = 0.65, 1.0
     figure = pyplot.figure(figsize=(block_width * len(blocks), height + below + above))
     total_width, total_height = figure.get_size_inches()
     for index, rows in enumerate(blocks):
         left = index * block_width + grid.label_inches
         top = below + height
-        inches = len(rows) * ROW_INCHES
+        inches = len(rows) * row_inches
         axes = figure.add_axes(
             [
                 left / total_width,
@@ -179,7 +192,7 @@ def draw(grid):
                 inches / total_height,
             ]
         )
-        _draw_block(axes, rows, grid)
+        _draw_block(axes, rows, grid, 6 if cell > 0.4 else 5.2)
     _draw_legend(
         figure,
         grid,

@@ -17,6 +17,8 @@ _CAPTION = (
 _PANEL_INCHES = 3.3
 # Of the width, how far from the left edge a number stands; of the height, how much higher every second one at the bottom.
 _FROM_LEFT, _STAGGER = 0.14, 0.045
+# What a number takes, as shares of a panel.
+_NUMBER_WIDTH, _NUMBER_HEIGHT = 0.055, 0.05
 _DASHES = ("-", (0, (4, 1.5)), (0, (1.5, 1.2)), (0, (5, 1.5, 1.5, 1.5)))
 
 
@@ -37,10 +39,11 @@ def anchor(found):
     return math.log10(dt), math.log10(error)
 
 
-def _draw_slope(axes, found, limits, place):
+def _draw_slope(axes, found, limits, taken):
     """A line of the order in theory over the panel, its number on it: at the bottom, else near the left edge.
 
-    At the bottom, below the floor, there is no curve; the numbers stand at two heights, since the steep lines are close.
+    At the bottom, below the floor, there is no curve; the numbers stand at two heights, since the steep lines are close, and
+    one that would lie on another is left out: `taken` are the places of those there are.
     """
     (left, right), (bottom, top) = limits
     x, y = anchor(found)
@@ -52,9 +55,28 @@ def _draw_slope(axes, found, limits, place):
     high = min(right, x + (top - y) / found.order)
     style = {"color": "0.45", "linestyle": ":", "linewidth": 0.7, "zorder": 1}
     axes.plot([low, high], [height(low), height(high)], **style)
-    at = low + (0.2 + place % 2) * _STAGGER * (top - bottom) / found.order
+    heights = [
+        low + (0.2 + n) * _STAGGER * (top - bottom) / found.order for n in (0, 1)
+    ]
     if height(left) > bottom:
-        at = left + _FROM_LEFT * (right - left)
+        heights = [left + _FROM_LEFT * (right - left)]
+    # As shares of the panel, what two digits take.
+    places = [
+        ((at - left) / (right - left), (height(at) - bottom) / (top - bottom))
+        for at in heights
+    ]
+    free = [
+        (at, place)
+        for at, place in zip(heights, places)
+        if all(
+            abs(place[0] - x) > _NUMBER_WIDTH or abs(place[1] - y) > _NUMBER_HEIGHT
+            for x, y in taken
+        )
+    ]
+    if not free:
+        return
+    at, place = free[0]
+    taken.append(place)
     axes.text(
         at,
         height(at),
@@ -86,13 +108,13 @@ def _ticks(axis, low, high):
 
 def _draw_panel(axes, convergences, unit, names):
     limits = _limits(convergences, unit)
-    drawn = set()
+    drawn, taken = set(), []
     for one in convergences:
         points = [(math.log10(dt), math.log10(error)) for dt, error in one.points]
         style = _style(names.index(one.integrator))
         axes.plot(*zip(*points), linewidth=0.8, zorder=2, **style)
         if one.order not in drawn:
-            _draw_slope(axes, one, limits, len(drawn))
+            _draw_slope(axes, one, limits, taken)
             drawn.add(one.order)
     if unit is not None:
         y = math.log10(unit)
@@ -136,9 +158,9 @@ def _draw(of_type, bits, longest):
     for axes in list(grid.flat)[len(of_type) :]:
         axes.remove()
     for axes in grid[-1]:
-        axes.set_xlabel("step")
+        axes.set_xlabel("step (dimensionless time)")
     for axes in grid[:, 0]:
-        axes.set_ylabel("global error")
+        axes.set_ylabel("global error (dimensionless)")
     figure.legend(
         handles=_handles(of_type, names, longest),
         loc="upper center",

@@ -72,7 +72,7 @@ CHAPTERS = (
         "stress",
         "Stiff and extreme cases",
         "Each case has a verdict in each type.",
-        ("stress_counts", "stress_matrix", "stress_findings"),
+        ("stress_counts", "stress_findings"),
         ("stability",),
     ),
     Chapter(

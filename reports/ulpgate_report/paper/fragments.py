@@ -1,10 +1,18 @@
 """LaTeX of the paper: a table or figure as a fragment for `\\input`, findings, and the document of all of them."""
+import re
 import struct
 
 from ulpgate_report.tables import cell_text, table_latex
 
 TEXT_WIDTH_MM, FIGURE_HEIGHT_MM = 183.0, 205.0
+PAGE_HEIGHT_MM = 257.0
+# Narrower, and prose is a word a line.
+LEAST_PROSE_MM = 24.0
+# Tables of so many rows and many columns stand on their side.
+FEW_ROWS = 3
 _MM_PER_INCH = 25.4
+# What is set as mathematics in a caption: 2^-p, 1e6 beside a unit stays as it is typed in commands.
+_POWER = re.compile(r"\b(\d+)\^(-?\w+|\(-?[\w-]+\))")
 
 _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
@@ -39,15 +47,25 @@ def caption(said):
     """A caption whose text between backquotes is a command."""
     parts = said.split("`")
     return "".join(
-        tex_command(part) if place % 2 else table_latex.escape(part)
+        tex_command(part) if place % 2 else _prose(part)
         for place, part in enumerate(parts)
     )
 
 
+def _prose(text):
+    """Text with its powers raised and t_s as the symbol it is."""
+    lines, last = [], 0
+    for found in re.finditer(rf"{_POWER.pattern}|\bt_s\b", text):
+        lines.append(table_latex.escape(text[last : found.start()]))
+        base, exponent = found.group(1, 2)
+        symbol = "t_s" if base is None else f"{base}^{{{exponent.strip('()')}}}"
+        lines.append(f"${symbol}$")
+        last = found.end()
+    return "".join([*lines, table_latex.escape(text[last:])])
+
+
 def _column_mm(column, cells):
     """About how wide a column is in the small type of tables."""
-    if column.kind == "prose":
-        return float(table_latex.PROSE_MM)
     texts = [column.title]
     for cell in cells:
         _, mark = cell_text.value_and_mark(cell)
@@ -59,20 +77,55 @@ def _column_mm(column, cells):
     return max(map(len, texts)) * each
 
 
-def is_wide(found):
-    """Whether the table needs a page on its side."""
-    gaps = 2.2 * len(found.columns)
-    columns = zip(found.columns, zip(*found.rows))
-    return sum(_column_mm(c, cells) for c, cells in columns) + gaps > TEXT_WIDTH_MM
+def prose_widths(found, width_mm):
+    """The widths of the columns of prose, mm, in a table of that width; None where it has no room for them.
+
+    Each is as wide as its longest text at most; where that is too much, they share what the others leave.
+    """
+    widths = [_column_mm(c, cells) for c, cells in zip(found.columns, zip(*found.rows))]
+    is_prose = [c.kind == "prose" for c in found.columns]
+    fixed = sum(w for w, prose in zip(widths, is_prose) if not prose)
+    room = width_mm - fixed - 2.2 * len(widths)
+    wanted = [w for w, prose in zip(widths, is_prose) if prose]
+    if not wanted:
+        return [] if room >= 0 else None
+    if sum(wanted) <= room:
+        return [round(w, 1) for w in wanted]
+    # Short ones have what they want, the others the same share.
+    shares, left = {}, room
+    for place in sorted(range(len(wanted)), key=wanted.__getitem__):
+        shares[place] = min(wanted[place], left / (len(wanted) - len(shares)))
+        left -= shares[place]
+    if any(s < min(LEAST_PROSE_MM, w) for s, w in zip(shares.values(), sorted(wanted))):
+        return None
+    return [round(shares[place], 1) for place in range(len(wanted))]
+
+
+def _laid_out(found):
+    """(LaTeX, its table, whether the page is on its side): the first way in which all of the table is on the page."""
+    has_command = any(c.kind == "command" for c in found.columns)
+    ways = [found, table_latex.without_commands(found)] if has_command else [found]
+    for way in ways:
+        widths = prose_widths(way, TEXT_WIDTH_MM)
+        if widths is not None:
+            return table_latex.render(way, widths), way, False
+    few = ways[-1]
+    if len(few.rows) <= FEW_ROWS and len(few.columns) > 2 * len(few.rows):
+        return table_latex.turned(few), few, False
+    for way in ways:
+        widths = prose_widths(way, PAGE_HEIGHT_MM)
+        if widths is not None:
+            return table_latex.render(way, widths), way, True
+    return table_latex.render(few), few, True
 
 
 def table(found):
-    """The table; one too wide for the page is turned."""
-    text = table_latex.render(found)
+    """The table; one too wide for the page loses its commands, of few rows it is turned, else the page is."""
+    text, shown, sideways = _laid_out(found)
     # Commands in a caption may break between any two letters.
-    plain = table_latex.escape(found.caption)
-    text = text.replace(plain, caption(found.caption))
-    if is_wide(found):
+    plain = table_latex.escape(shown.caption)
+    text = text.replace(plain, caption(shown.caption))
+    if sideways:
         return f"\\begin{{landscape}}\n{text}\\end{{landscape}}\n"
     return text
 

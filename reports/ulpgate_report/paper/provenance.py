@@ -22,6 +22,27 @@ def commands_of(runs):
     return found
 
 
+def _words_of(run, command):
+    """What the name of a figure says where it is of this run: the end of the run's name, and what a scene was set to."""
+    words = command.split()
+    settings = [b for a, b in zip(words, words[1:]) if a == "--set"]
+    return [run.partition("/")[2], *(s.replace("=", "-") for s in settings)]
+
+
+def command_of(commands, run, name):
+    """The command that makes the figure or table `name` of a chapter: of several runs that whose words the name has, and
+    the longest of them; else what the runner noted of all of them; "" where it noted nothing.
+    """
+    found = {}
+    for one, command in commands.items():
+        if one.startswith(run + "/"):
+            for word in _words_of(one, command):
+                # order_table is of the run `orders`.
+                if word and word.removesuffix("s") in name:
+                    found[word] = command
+    return found[max(found, key=len)] if found else commands.get(run, "")
+
+
 def _said(value, shown=str):
     """Of a suite the different values of its runs."""
     if isinstance(value, dict):

@@ -111,9 +111,10 @@ def _write_figures(writer, one, said, prefix, tell):
         for suffix, content in files.items():
             writer.data(f"figures/{name}.{suffix}", content)
         dots = figure_style.PNG_DOTS_PER_INCH
-        fragment = fragments.figure(name, caption + said, files["png"], dots)
+        whole = caption + said(name)
+        fragment = fragments.figure(name, whole, files["png"], dots)
         writer.text(f"figures/{name}.tex", fragment)
-        writer.text(f"figures/{name}.caption.txt", caption + said + "\n")
+        writer.text(f"figures/{name}.caption.txt", whole + "\n")
         inputs.append(f"figures/{name}.tex")
     with figure_style.one_column():
         for name, _, figure in _figures_of(one, prefix):
@@ -126,15 +127,19 @@ def _write_figures(writer, one, said, prefix, tell):
     return inputs
 
 
-def _chapter(writer, one, command, tell):
+def _chapter(writer, one, commands, tell):
     """Write a chapter's fragments; returns their names."""
     chapter = one.chapter
-    said = provenance.sentence(one.context, command)
+
+    def said(name):
+        command = provenance.command_of(commands, chapter.run, name)
+        return provenance.sentence(one.context, command)
+
     # Kinds share names of tables and figures between runs of scenes.
     prefix = "" if chapter.run == "math" else f"{chapter.run}_"
     found = _tables_of(one)
     inputs = [
-        _write_table(writer, found[name], said, prefix)
+        _write_table(writer, found[name], said(name), prefix)
         for name in chapter.tables
         if name in found and found[name].rows
     ]
@@ -178,8 +183,7 @@ def write(runs, out, history=None, tell=lambda _: None):
     writer = Writer(out)
     chapters = []
     for one in sources:
-        command = commands.get(one.chapter.run, "")
-        inputs = _chapter(writer, one, command, tell)
+        inputs = _chapter(writer, one, commands, tell)
         if one.chapter.run == "libraries":
             inputs += _write_claims(writer, runs, commands)
         chapters.append((one.chapter.title, one.chapter.says, inputs))

@@ -17,6 +17,8 @@ _COLUMN, _ABOVE = 0.24, 0.95
 # Of a name at the size of the labels, inches a character.
 _CHARACTER = 0.056
 _ROWS_OF_ONE_BLOCK = 45
+# What a page has room for at full size.
+_BLOCKS_OF_ONE_FIGURE, _MOST_ROWS = 2, 48
 # A name longer than this is cut, its end kept, where names differ: the table has it whole.
 _LONGEST, _END = 44, 16
 
@@ -30,7 +32,20 @@ def _shortened(name):
 def blocks(cases):
     """The cases in columns of at most _ROWS_OF_ONE_BLOCK, about equally long."""
     rows = len(cases) if figure_style.is_one_column() else _ROWS_OF_ONE_BLOCK
-    count = math.ceil(len(cases) / rows)
+    # Two where one would do with a few rows more.
+    count = min(math.ceil(len(cases) / rows), _BLOCKS_OF_ONE_FIGURE)
+    each = math.ceil(len(cases) / count)
+    return [cases[start : start + each] for start in range(0, len(cases), each)]
+
+
+def figures_of(cases):
+    """The cases in as many parts as need a figure of their own, about equally long."""
+    most = (
+        _MOST_ROWS
+        if figure_style.is_one_column()
+        else _MOST_ROWS * _BLOCKS_OF_ONE_FIGURE
+    )
+    count = math.ceil(len(cases) / most)
     each = math.ceil(len(cases) / count)
     return [cases[start : start + each] for start in range(0, len(cases), each)]
 
@@ -148,5 +163,9 @@ def draw(stress):
     for kind in stress.kinds:
         cases = list(stress.of_kind(kind).items())
         words = kind.replace("_", " ").capitalize()
-        figure = _draw(cases, stress.type_tokens, len(kind) + 1)
-        yield f"{FAMILY}_{kind}", _CAPTION % (words, verdicts.LEGEND), figure
+        parts = figures_of(cases)
+        for place, mine in enumerate(parts, 1):
+            name = f"{FAMILY}_{kind}" + (f"_{place}" if place > 1 else "")
+            part = f", part {place} of {len(parts)}" if len(parts) > 1 else ""
+            figure = _draw(mine, stress.type_tokens, len(kind) + 1)
+            yield name, _CAPTION % (words + part, verdicts.LEGEND), figure

@@ -67,16 +67,6 @@ def _shape(kind, prose_mm):
     return "r" if kind in cell_text.NUMERIC_KINDS else "l"
 
 
-def _without_commands(table):
-    """The table without its commands where it is too wide for them; the caption says so."""
-    kept = [i for i, c in enumerate(table.columns) if c.kind != "command"]
-    if len(table.columns) <= COLUMNS_OF_COMMANDS or len(kept) == len(table.columns):
-        return table
-    rows = tuple(tuple(row[i] for i in kept) for row in table.rows)
-    caption = f"{table.caption} The commands are in the CSV file."
-    return Table(table.name, caption, tuple(table.columns[i] for i in kept), rows)
-
-
 def _caption(table):
     text = table.caption
     cut = any(
@@ -89,21 +79,58 @@ def _caption(table):
     return escape(text)
 
 
-def render(table):
-    """The longtable; it repeats its head on every page."""
-    table = _without_commands(table)
-    kinds = [column.kind for column in table.columns]
-    # One column of prose has room; several are in tables that are wide already.
-    several = kinds.count("prose")
-    prose_mm = PROSE_MM if several < 2 else SHARED_PROSE_MM // several
-    shape = "".join(_shape(kind, prose_mm) for kind in kinds)
+def without_commands(table):
+    """The table without its commands; the caption says so."""
+    kept = [i for i, c in enumerate(table.columns) if c.kind != "command"]
+    rows = tuple(tuple(row[i] for i in kept) for row in table.rows)
+    caption = f"{table.caption} The commands are in the CSV file."
+    return Table(table.name, caption, tuple(table.columns[i] for i in kept), rows)
+
+
+def _titles(table):
     titles = []
     for column in table.columns:
         title = escape(column.title)
         # Types are told by their token, in the columns' heads as in the command line.
         is_type = column.kind in ("ulp", "distance") and column.name == column.title
         titles.append(rf"\texttt{{{title}}}" if is_type else title)
-    head = [r"\toprule", " & ".join(titles) + r" \\", r"\midrule"]
+    return titles
+
+
+def turned(table):
+    """The table on its side, for one of few rows and many columns: a line for each column, its unit in its title."""
+    lines = [
+        r"{\scriptsize\setlength{\tabcolsep}{3pt}",
+        rf"\begin{{longtable}}{{@{{}}l{'r' * len(table.rows)}@{{}}}}",
+        rf"\caption{{{_caption(table)}}}\label{{tab:{table.name}}}\\",
+        r"\toprule",
+        r"\endfirsthead",
+        r"\toprule",
+        r"\endhead",
+        r"\bottomrule",
+        r"\endfoot",
+    ]
+    for title, column, cells in zip(_titles(table), table.columns, zip(*table.rows)):
+        shown = [_text(cell, column.kind) for cell in cells]
+        lines.append(" & ".join([title, *shown]) + r" \\")
+    return "\n".join([*lines, r"\end{longtable}}", ""])
+
+
+def render(table, prose_mm=None):
+    """The longtable; it repeats its head on every page.  `prose_mm` are the widths of its columns of prose."""
+    if len(table.columns) > COLUMNS_OF_COMMANDS:
+        has_command = any(c.kind == "command" for c in table.columns)
+        table = without_commands(table) if has_command else table
+    kinds = [column.kind for column in table.columns]
+    if prose_mm is None:
+        # One column of prose has room; several are in tables that are wide already.
+        several = kinds.count("prose")
+        prose_mm = [PROSE_MM if several < 2 else SHARED_PROSE_MM // several] * several
+    widths = iter(prose_mm)
+    shape = "".join(
+        _shape(kind, next(widths) if kind == "prose" else None) for kind in kinds
+    )
+    head = [r"\toprule", " & ".join(_titles(table)) + r" \\", r"\midrule"]
     lines = [
         r"{\scriptsize\setlength{\tabcolsep}{3pt}",
         rf"\begin{{longtable}}{{@{{}}{shape}@{{}}}}",
