@@ -17,6 +17,8 @@ LABEL_INCHES = 1.25
 ROWS_OF_ONE_BLOCK = 30
 # The least that a cell and a row take; text is that much smaller.
 LEAST_CELL_INCHES, LOW_ROW_INCHES = 0.33, 0.125
+# A number of so many signs is set smaller.
+_LONG_NUMBER = 7
 # More rows than these in one block are low ones.
 MOST_FULL_ROWS = 46
 
@@ -94,15 +96,16 @@ def _draw_cell(axes, x, y, cell, scale, size=6):
                 linewidth=0.4,
             )
         )
+        shown = numbers.short_ulp(value)
         # The hatch of an infinite error would run through its text.
         box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
         axes.text(
             x + 0.5,
             y + 0.53,
-            numbers.short_ulp(value),
+            shown,
             ha="center",
             va="center",
-            size=size,
+            size=size if len(shown) < _LONG_NUMBER else size - 0.8,
             color=scale.foreground(value),
             bbox=box if infinite else None,
         )

@@ -1,4 +1,7 @@
 """LaTeX of the paper: a table or figure as a fragment for `\\input`, findings, and the document of all of them."""
+import dataclasses
+import itertools
+import math
 import re
 import struct
 
@@ -8,11 +11,13 @@ TEXT_WIDTH_MM, FIGURE_HEIGHT_MM = 183.0, 205.0
 PAGE_HEIGHT_MM = 257.0
 # Narrower, and prose is a word a line.
 LEAST_PROSE_MM = 24.0
+# What is no longer looked at on paper.
+MOST_LINES, PROSE_LINE = 420, 70
 # Tables of so many rows and many columns stand on their side.
 FEW_ROWS = 3
 _MM_PER_INCH = 25.4
 # What is set as mathematics in a caption: 2^-p, 1e6 beside a unit stays as it is typed in commands.
-_POWER = re.compile(r"\b(\d+)\^(-?\w+|\(-?[\w-]+\))")
+_POWER = re.compile(r"\b(\w+)\^(-?\w+|-?\([\w-]+\))")
 
 _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
@@ -58,7 +63,7 @@ def _prose(text):
     for found in re.finditer(rf"{_POWER.pattern}|\bt_s\b", text):
         lines.append(table_latex.escape(text[last : found.start()]))
         base, exponent = found.group(1, 2)
-        symbol = "t_s" if base is None else f"{base}^{{{exponent.strip('()')}}}"
+        symbol = "t_s" if base is None else f"\\mathrm{{{base}}}^{{{exponent}}}"
         lines.append(f"${symbol}$")
         last = found.end()
     return "".join([*lines, table_latex.escape(text[last:])])
@@ -77,12 +82,45 @@ def _column_mm(column, cells):
     return max(map(len, texts)) * each
 
 
+def _prose_mm(column, cells):
+    """What a column of prose wants: its longest text on one line, unless most of them are much shorter."""
+    lengths = [len(cell_text.short(cell, column.kind)) for cell in cells]
+    line = min(max(lengths), 3 * sum(lengths) / len(lengths))
+    return 1.2 * max(line, len(column.title) + 2) + 2
+
+
+def _lines_of(row, columns):
+    """About how many lines a row takes."""
+    lengths = [
+        len(cell_text.short(cell, c.kind))
+        for cell, c in zip(row, columns)
+        if c.kind == "prose"
+    ]
+    return max((1, *(math.ceil(n / PROSE_LINE) for n in lengths)))
+
+
+def _shortened(found):
+    """The table without the rows that would make pages of it; the caption says so."""
+    lines = itertools.accumulate(_lines_of(row, found.columns) for row in found.rows)
+    most = sum(so_far <= MOST_LINES for so_far in lines)
+    if len(found.rows) <= most:
+        return found
+    said = f" The first {most} of {len(found.rows)} rows; the CSV file has all."
+    return dataclasses.replace(
+        found, rows=found.rows[:most], caption=found.caption + said
+    )
+
+
 def prose_widths(found, width_mm):
     """The widths of the columns of prose, mm, in a table of that width; None where it has no room for them.
 
     Each is as wide as its longest text at most; where that is too much, they share what the others leave.
     """
-    widths = [_column_mm(c, cells) for c, cells in zip(found.columns, zip(*found.rows))]
+    columns = list(zip(found.columns, zip(*found.rows)))
+    widths = [
+        _prose_mm(*one) if one[0].kind == "prose" else _column_mm(*one)
+        for one in columns
+    ]
     is_prose = [c.kind == "prose" for c in found.columns]
     fixed = sum(w for w, prose in zip(widths, is_prose) if not prose)
     room = width_mm - fixed - 2.2 * len(widths)
@@ -121,7 +159,7 @@ def _laid_out(found):
 
 def table(found):
     """The table; one too wide for the page loses its commands, of few rows it is turned, else the page is."""
-    text, shown, sideways = _laid_out(found)
+    text, shown, sideways = _laid_out(_shortened(found))
     # Commands in a caption may break between any two letters.
     plain = table_latex.escape(shown.caption)
     text = text.replace(plain, caption(shown.caption))

@@ -108,7 +108,7 @@ def _draw_block(axes, cases, tokens, cut):
 
 def _legend_rows(width):
     """In how many lines the letters and words fit."""
-    return 1 if width > 6.6 else 2 if width > 3.6 else 3
+    return 1 if width > 7.6 else 2 if width > 3.6 else 3
 
 
 def _draw_legend(figure, left, width):

@@ -6,6 +6,7 @@ ARGUMENT_DIGITS = 13
 COLUMNS_OF_PORTRAIT = 9
 # Beside more columns than these a command has no room.
 COLUMNS_OF_COMMANDS = 10
+MANY_COLUMNS = 8
 PROSE_MM, SHARED_PROSE_MM = 70, 80
 _SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -131,8 +132,10 @@ def render(table, prose_mm=None):
         _shape(kind, next(widths) if kind == "prose" else None) for kind in kinds
     )
     head = [r"\toprule", " & ".join(_titles(table)) + r" \\", r"\midrule"]
+    # Many columns stand closer: together their gaps are as wide as one more.
+    gap = "3pt" if len(kinds) < MANY_COLUMNS else "2.3pt"
     lines = [
-        r"{\scriptsize\setlength{\tabcolsep}{3pt}",
+        rf"{{\scriptsize\setlength{{\tabcolsep}}{{{gap}}}",
         rf"\begin{{longtable}}{{@{{}}{shape}@{{}}}}",
         rf"\caption{{{_caption(table)}}}\label{{tab:{table.name}}}\\",
         *head,

@@ -43,7 +43,14 @@ QUANTITIES = {
         Quantity("seconds", "time", ("seconds",), unit="s"),
         Quantity("steps", "steps", ("steps",), of_runs=True),
         Quantity("evaluations", "evaluations", ("evaluations",), of_runs=True),
-        Quantity("dt", "step", ("dt",), larger_is_better=True, of_runs=True),
+        Quantity(
+            "dt",
+            "step",
+            ("dt",),
+            larger_is_better=True,
+            of_runs=True,
+            unit="the problem's time",
+        ),
     )
 }
 DEFAULT = ("error", "seconds")
