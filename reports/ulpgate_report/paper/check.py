@@ -22,6 +22,8 @@ _NUMBER = re.compile(
     r"(?<![\w.])-?(?:0x[0-9a-f.]+p[+-]?\d+|\d+(?:\.\d+)?(?:e[+-]?\d+)?)(?![\w])", re.I
 )
 _DIGITS = re.compile(r"\d+(?:\.\d+)?")
+# In captions: 2^40 and its like, without the sign.
+_RAISED = re.compile(r"\\mathrm\{(\d+)\}\^\{-?(\d+)\}")
 _EXPONENT = re.compile(r"(?:\de|10\^\{?)[-+]?(\d+)")
 _RECORD_SUFFIXES = {".jsonl", ".json", ".csv"}
 # Of a run's directory what holds no results.
@@ -163,8 +165,9 @@ def _printed_as(token):
 
 
 def _powers(text):
-    """Powers of ten as pdftotext gives them: the exponent behind the 10, without a gap."""
-    return {"10" + exponent for exponent in _EXPONENT.findall(text)}
+    """Powers as pdftotext gives them: the exponent behind its base, without a gap."""
+    raised = {base + power for base, power in _RAISED.findall(text)}
+    return raised | {"10" + exponent for exponent in _EXPONENT.findall(text)}
 
 
 def _broken(text):

@@ -7,7 +7,6 @@ import subprocess
 import pytest
 
 from ulpgate_report.paper import check, cli, findings, fragments, source, write
-from ulpgate_report.tables.table import Column, Table, columns_of
 from ulpgate_report.testing import sample_pendulum, sample_records, sample_scenes
 
 CLAIM = {
@@ -245,13 +244,6 @@ def test_the_document_compiles_and_prints_no_other_number(paper, tmp_path):
     subprocess.run(words, cwd=other, capture_output=True, check=True)
     (other / "paper.tex").write_text(text)
     assert check.of_pdf(other, names) == ["98765.4321"]
-
-
-def test_a_wide_table_is_turned_and_a_narrow_one_not():
-    columns = columns_of("count", **{f"c{i}": f"column {i}" for i in range(18)})
-    wide = Table("t", "c", columns, ((12345678,) * 18,))
-    narrow = Table("t", "c", (Column("a", "a", "code"),), (("x",),))
-    assert fragments.is_wide(wide) and not fragments.is_wide(narrow)
 
 
 @pytest.mark.parametrize(

@@ -180,9 +180,11 @@ def test_colours_are_readable():
 @pytest.mark.parametrize("count", [1, 45, 46, 150])
 def test_long_catalogues_are_split_evenly(count):
     cases = list(range(count))
-    parts = figure_matrix.blocks(cases)
+    figures = figure_matrix.figures_of(cases)
+    parts = [part for one in figures for part in figure_matrix.blocks(one)]
     assert [case for part in parts for case in part] == cases
-    assert max(map(len, parts)) <= 45
+    assert max(map(len, parts)) <= 48
+    assert all(len(figure_matrix.blocks(one)) <= 2 for one in figures)
     assert max(map(len, parts)) - min(map(len, parts)) <= len(parts)
 
 
