@@ -10,7 +10,7 @@ namespace {
 constexpr mpfr_prec_t bits = 400;
 
 DoubleDouble rounded(mpfr_srcptr x) {
-  MpfrValue rest(bits);
+  MpfrValue rest(mpfr_get_prec(x));
   const double hi = mpfr_get_d(x, MPFR_RNDN);
   mpfr_sub_d(rest, x, hi, MPFR_RNDN);
   return {hi, mpfr_get_d(rest, MPFR_RNDN)};
@@ -40,9 +40,8 @@ void make_exponentials(Constants& c) {
   mpfr_log(x, x, MPFR_RNDN);
   mpfr_ui_div(x, 1, x, MPFR_RNDN);
   c.inverse_ln10 = rounded(x);
-  for (int j = -32; j <= 32; ++j) {
-    const auto i = static_cast<std::size_t>(j + 32);
-    mpfr_set_si_2exp(x, j, -6, MPFR_RNDN);
+  for (std::size_t i = 0; i < c.power.size(); ++i) {
+    mpfr_set_si_2exp(x, static_cast<long>(i) - 32, -6, MPFR_RNDN);
     mpfr_exp2(x, x, MPFR_RNDN);
     c.power[i] = rounded(x);
     mpfr_sub_ui(x, x, 1, MPFR_RNDN);
@@ -93,11 +92,83 @@ void make_reciprocals(Constants& c) {
   }
 }
 
+void make_gamma(Constants& c) {
+  MpfrValue x(bits);
+  MpfrValue two_pi(bits);
+  mpfr_const_pi(two_pi, MPFR_RNDN);
+  mpfr_log(x, two_pi, MPFR_RNDN);
+  c.log_pi = rounded(x);
+  mpfr_mul_ui(two_pi, two_pi, 2, MPFR_RNDN);
+  mpfr_log(x, two_pi, MPFR_RNDN);
+  mpfr_div_ui(x, x, 2, MPFR_RNDN);
+  c.log_sqrt_two_pi = rounded(x);
+  // B_2k = (-1)^(k + 1) 2 (2k)! zeta(2k) / (2 pi)^2k, DLMF 25.6.2.
+  MpfrValue factor(bits);
+  for (unsigned long k = 1; k <= c.stirling.size(); ++k) {
+    mpfr_zeta_ui(x, 2 * k, MPFR_RNDN);
+    mpfr_fac_ui(factor, 2 * k, MPFR_RNDN);
+    mpfr_mul(x, x, factor, MPFR_RNDN);
+    mpfr_pow_ui(factor, two_pi, 2 * k, MPFR_RNDN);
+    mpfr_div(x, x, factor, MPFR_RNDN);
+    mpfr_mul_si(x, x, k % 2 == 1 ? 2 : -2, MPFR_RNDN);
+    mpfr_div_ui(x, x, 2 * k * (2 * k - 1), MPFR_RNDN);
+    c.stirling[k - 1] = rounded(x);
+  }
+}
+
+// The coefficients a_n of y = e^(x^2) erfc x at a point: y' = 2 x y - 2 / sqrt(pi), so that (n + 1) a_(n+1) =
+// 2 x a_n + 2 a_(n-1), and one more term for n = 0.  Forwards they lose some 2 bits a term: of 1000 enough
+// are left.
+void make_scaled_erfc(Constants& c, mpfr_srcptr two_over_sqrt_pi) {
+  constexpr mpfr_prec_t many = 1000;
+  MpfrValue before(many);
+  MpfrValue now(many);
+  MpfrValue next(many);
+  MpfrValue term(many);
+  for (std::size_t i = 0; i < c.scaled_erfc.size(); ++i) {
+    const double x = 1 + static_cast<double>(i) / 4;
+    mpfr_set_zero(before, 1);
+    mpfr_set_d(now, x, MPFR_RNDN);
+    mpfr_erfc(now, now, MPFR_RNDN);
+    mpfr_set_d(term, x * x, MPFR_RNDN);
+    mpfr_exp(term, term, MPFR_RNDN);
+    mpfr_mul(now, now, term, MPFR_RNDN);
+    for (std::size_t n = 0; n < c.scaled_erfc[i].size(); ++n) {
+      c.scaled_erfc[i][n] = rounded(now);
+      mpfr_mul_d(next, now, 2 * x, MPFR_RNDN);
+      mpfr_mul_ui(term, before, 2, MPFR_RNDN);
+      mpfr_add(next, next, term, MPFR_RNDN);
+      if (n == 0) mpfr_sub(next, next, two_over_sqrt_pi, MPFR_RNDN);
+      mpfr_div_ui(next, next, n + 1, MPFR_RNDN);
+      mpfr_swap(before, now);
+      mpfr_swap(now, next);
+    }
+  }
+}
+
+void make_error_functions(Constants& c) {
+  MpfrValue x(1000);
+  mpfr_const_pi(x, MPFR_RNDN);
+  mpfr_rec_sqrt(x, x, MPFR_RNDN);
+  c.inverse_sqrt_pi = rounded(x);
+  mpfr_mul_ui(x, x, 2, MPFR_RNDN);
+  c.two_over_sqrt_pi = rounded(x);
+  make_scaled_erfc(c, x);
+  for (unsigned long n = 0; n < c.erf_series.size(); ++n) {
+    mpfr_fac_ui(x, n, MPFR_RNDN);
+    mpfr_mul_ui(x, x, 2 * n + 1, MPFR_RNDN);
+    mpfr_si_div(x, n % 2 == 0 ? 1 : -1, x, MPFR_RNDN);
+    c.erf_series[n] = rounded(x);
+  }
+}
+
 Constants made() {
   Constants c{};
   make_exponentials(c);
   make_angles(c);
   make_reciprocals(c);
+  make_gamma(c);
+  make_error_functions(c);
   return c;
 }
 

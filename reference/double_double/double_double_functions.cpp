@@ -47,13 +47,16 @@ ULPGATE_INLINE DoubleDouble two_product(double a, double b) {
   const double p = a * b;
   return {p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
-// clang-format off: each rests on those before it
+// Each rests on those before it.
+// clang-format off
 #include "reference/double_double/arithmetic.inc"
 #include "reference/double_double/bounded.inc"
 #include "reference/double_double/exponentials.inc"
 #include "reference/double_double/logarithms.inc"
 #include "reference/double_double/angles.inc"
 #include "reference/double_double/inverse_angles.inc"
+#include "reference/double_double/gamma.inc"
+#include "reference/double_double/error_functions.inc"
 #include "reference/double_double/batches.inc"
 // clang-format on
 }  // namespace baseline
@@ -67,13 +70,16 @@ ULPGATE_INLINE DoubleDouble two_product(double a, double b) {
   const double p = a * b;
   return {p, __builtin_fma(a, b, -p)};
 }
-// clang-format off: each rests on those before it
+// Each rests on those before it.
+// clang-format off
 #include "reference/double_double/arithmetic.inc"
 #include "reference/double_double/bounded.inc"
 #include "reference/double_double/exponentials.inc"
 #include "reference/double_double/logarithms.inc"
 #include "reference/double_double/angles.inc"
 #include "reference/double_double/inverse_angles.inc"
+#include "reference/double_double/gamma.inc"
+#include "reference/double_double/error_functions.inc"
 #include "reference/double_double/batches.inc"
 // clang-format on
 }  // namespace fma

@@ -15,9 +15,9 @@ namespace ulpgate {
 using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* results, double* bounds,
                                       std::size_t count, int argument_bits);
 
-// nullptr where there is none.  The bounds are derived where the functions stand (exponentials.inc and its like), for round
-// to nearest; they assume of the C library's double functions atan, atan2, log and cbrt that they
-// are right to 2^-50.
+// nullptr where there is none.  The bounds are derived where the functions stand (exponentials.inc and its
+// like), for round to nearest; they assume of the C library's double functions atan, atan2, log and cbrt that
+// they are right to 2^-50.
 [[nodiscard]] DoubleDoubleFunction double_double_function(FunctionId id);
 
 // Of each instruction set that this processor has, the slowest first; for tests.

@@ -12,7 +12,10 @@ _SMALLER = [
     (r"--repeats \d+", "--repeats 2"),
     (r"--snapshots \S+", "--snapshots 0"),
     (r"ulpgate math (?!.*--functions)", "ulpgate math --functions exp "),
-    (r"ulpgate kernels (?!--audit|.*--kernels)", "ulpgate kernels --kernels sphere_sphere "),
+    (
+        r"ulpgate kernels (?!--audit|.*--kernels)",
+        "ulpgate kernels --kernels sphere_sphere ",
+    ),
     # What it finds goes nowhere but into the test's own directory.
     (r"--worst-cases ci/worst_cases", "--worst-cases ."),
 ]

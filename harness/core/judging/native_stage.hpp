@@ -47,8 +47,8 @@ class NativeStage {
     using L = std::numeric_limits<Real>;
     constexpr int p = L::digits;
     constexpr int least_grid = L::min_exponent - 1;
-    constexpr int least_exponent = gradual ? least_grid - 200 : -900;
-    constexpr int greatest_exponent = std::min(L::max_exponent - 1, 900);
+    constexpr int least_exponent = gradual ? least_grid - 200 : far ? -16200 : -900;
+    constexpr int greatest_exponent = std::min(L::max_exponent - 1, far ? 16200 : 900);
     const W value = results_[i];
     const NumberBits bits = bits_of(value);
     const NumberBits got_bits = bits_of(got);
@@ -67,12 +67,13 @@ class NativeStage {
     const int grid = gradual ? std::max(bits.exponent, least_grid) : bits.exponent;
     const int got_grid = gradual ? std::max(got_bits.exponent, least_grid) : got_bits.exponent;
     const W difference = static_cast<W>(got) - value;
+    // Of a far exponent too small for a double, and then exact only where it is 0.
     const auto rounded = static_cast<double>(difference);
     // Of two neighbouring numbers the difference is exact (Sterbenz), and it may be a double.
     const bool neighbours =
         got_bits.normal && bits.exponent >= least_grid && std::abs(got_bits.exponent - bits.exponent) <= 1;
     const bool exact = bound == 0 && static_cast<W>(rounded) == difference && (neighbours || difference == 0);
-    const double error = std::fabs(rounded) * power_of_two(p - 1 - grid);
+    const double error = std::fabs(scaled(difference, p - 1 - grid));
     const double slack = exact ? 0 : bound * unit + error * 0x1p-48;
     double least = error - slack;
     double greatest = error + slack;
@@ -111,6 +112,32 @@ class NativeStage {
  private:
   // Below its least normal number float has one spacing; that of the wider types is too small for a double.
   static constexpr bool gradual = std::numeric_limits<Real>::min_exponent > -800;
+  // Whether results may have exponents that double has not.
+#ifdef ULPGATE_HAVE_FLOAT128
+  static constexpr bool far = std::same_as<W, Binary128> && std::numeric_limits<Real>::min_exponent < -1100;
+#else
+  static constexpr bool far = false;
+#endif
+  static constexpr int most_double_exponent = 900;
+
+  // 2^e.
+  [[nodiscard]] static W wide_power(int e) {
+    if constexpr (far) {
+      return std::bit_cast<W>(static_cast<unsigned __int128>(e + 16383) << 112U);
+    } else {
+      return static_cast<W>(power_of_two(e));
+    }
+  }
+  // x 2^e, rounded to double.
+  [[nodiscard]] static double scaled(W x, int e) {
+    if constexpr (far) {
+      // Where x is as far as e, their product is no exponent of double's either way round.
+      if (e > most_double_exponent || e < -most_double_exponent)
+        return static_cast<double>(x * wide_power(e));
+    }
+    return static_cast<double>(x) * power_of_two(e);
+  }
+
   // Where the exponent of a value says that it overflows: bounds are below 2^20 ulp of W, which is little
   // next to the half ulp of float that lies between its largest number and this power of two.
   static constexpr int least_overflow =
@@ -130,12 +157,14 @@ class NativeStage {
     const bool above = bits.fraction == 0;
     if (!above && bits.fraction != 0xffffffffU) return false;
     const W size = value < 0 ? -value : value;
-    const auto power = static_cast<W>(power_of_two(above ? bits.exponent : bits.exponent + 1));
-    const auto gap = static_cast<double>(above ? size - power : power - size);
-    return gap * power_of_two(std::numeric_limits<Real>::digits - 1 - bits.exponent) <= 2 * slack;
+    const W power = wide_power(above ? bits.exponent : bits.exponent + 1);
+    const W gap = above ? size - power : power - size;
+    return scaled(gap, std::numeric_limits<Real>::digits - 1 - bits.exponent) <= 2 * slack;
   }
 
-  [[nodiscard]] static bool signbit_of(W value) { return std::signbit(static_cast<double>(value)); }
+  [[nodiscard]] static bool signbit_of(W value) {
+    return std::signbit(static_cast<double>(value));
+  }
 
   // Results of 0, infinity and NaN: the two agree, or the exact value lies beyond what Real has, for float up
   // to the last rounding.  Where they differ, and closer to the ends, the stage has no say.

@@ -24,6 +24,7 @@ namespace {
 std::vector<float> many_floats() {
   std::mt19937 words(7);
   std::vector<float> list;
+  list.reserve(50000);
   for (int i = 0; i < 30000; ++i) list.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(words())));
   for (int i = -4000; i <= 4000; ++i) {
     list.push_back(static_cast<float>(i) * 0.0625F);
@@ -81,6 +82,7 @@ TEST(OrdinaryScan, WritesTheSameVerdictsWithEveryInstructionSet) {
                                                     bounded_function<double>(FunctionId::tanh));
   stage.load(args, args.size());
   std::vector<float> results;
+  results.reserve(args.size());
   for (const float x : args) results.push_back(std::tanh(x));
   std::vector<std::vector<std::uint8_t>> all;
   for (const OrdinaryScan scan : ordinary_scans()) {
