@@ -15,22 +15,22 @@ namespace {
 // Batches of one function of one or two arguments.
 #define ULPGATE_UNARY(name)                                                                             \
   void batch_##name(const DoubleDouble* args, DoubleDouble* results, double* bounds, std::size_t count, \
-                    int) {                                                                              \
+                    int argument_bits) {                                                                \
     const Constants& c = constants();                                                                   \
     for (std::size_t i = 0; i < count; ++i) {                                                           \
       const Bounded b = dd_##name(args[i], c);                                                          \
       results[i] = b.value;                                                                             \
-      bounds[i] = b.bound;                                                                              \
+      bounds[i] = argument_bits > 53 && b.value.hi != b.value.hi ? -1 : b.bound;                        \
     }                                                                                                   \
   }
 #define ULPGATE_BINARY(name)                                                                            \
   void batch_##name(const DoubleDouble* args, DoubleDouble* results, double* bounds, std::size_t count, \
-                    int) {                                                                              \
+                    int argument_bits) {                                                                \
     const Constants& c = constants();                                                                   \
     for (std::size_t i = 0; i < count; ++i) {                                                           \
       const Bounded b = dd_##name(args[2 * i], args[2 * i + 1], c);                                     \
       results[i] = b.value;                                                                             \
-      bounds[i] = b.bound;                                                                              \
+      bounds[i] = argument_bits > 53 && b.value.hi != b.value.hi ? -1 : b.bound;                        \
     }                                                                                                   \
   }
 

@@ -88,7 +88,10 @@ class ScreenedJudging {
 
   static auto x87_stage([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
     if constexpr (NativeBits<long double>) {
-      return std::tuple(NativeStage<Real, long double, Stage::x87_extended>(f, s.x87_extended));
+      // A stage that costs more than the one behind it and decides less.
+      const bool spared = std::same_as<Real, double> && s.double_double != nullptr && is_cheaper_than_x87(f);
+      return std::tuple(
+          NativeStage<Real, long double, Stage::x87_extended>(f, spared ? nullptr : s.x87_extended));
     } else {
       return std::tuple();
     }
