@@ -124,5 +124,7 @@ def test_every_verb_has_two_examples_that_run(tree, folder):
 
 
 def test_an_error_on_the_command_line_is_said_on_stderr():
-    done = subprocess.run([ULPGATE, "math", "--sample", "1"], capture_output=True)
+    done = subprocess.run(
+        [ULPGATE, "math", "--out", "o", "--sample", "1"], capture_output=True
+    )
     assert done.returncode == 2 and not done.stdout and b"--sample" in done.stderr
