@@ -32,13 +32,7 @@ def on_terminal(*words, columns=80, **variables):
         env=env | {"TERM": "xterm"} | variables,
     )
     os.close(end)
-    shown = b""
-    try:
-        while chunk := os.read(terminal, 4096):
-            shown += chunk
-    except OSError:
-        pass  # how Linux says that the other end is closed
-    os.close(terminal)
+    shown = program.all_of(terminal)
     process.wait()
     return shown.decode().replace("\r\n", "\n")
 

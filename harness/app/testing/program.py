@@ -72,13 +72,8 @@ def wait_for_pieces(out, count, process=None):
     raise AssertionError(f"{out} never held {count} pieces")
 
 
-def shown_on_terminal(*words):
-    """What a run that ends well shows on stderr where that is a terminal."""
-    terminal, end = pty.openpty()
-    process = subprocess.Popen(
-        command(*words), stdout=subprocess.DEVNULL, stderr=end, cwd=ROOT
-    )
-    os.close(end)
+def all_of(terminal):
+    """What was written to a terminal until its other end was closed."""
     shown = b""
     try:
         while chunk := os.read(terminal, 4096):
@@ -86,5 +81,16 @@ def shown_on_terminal(*words):
     except OSError:
         pass  # how Linux says that the other end is closed
     os.close(terminal)
+    return shown
+
+
+def shown_on_terminal(*words):
+    """What a run that ends well shows on stderr where that is a terminal."""
+    terminal, end = pty.openpty()
+    process = subprocess.Popen(
+        command(*words), stdout=subprocess.DEVNULL, stderr=end, cwd=ROOT
+    )
+    os.close(end)
+    shown = all_of(terminal)
     assert process.wait() == 0
     return shown
