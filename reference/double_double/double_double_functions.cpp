@@ -20,7 +20,7 @@ namespace {
     for (std::size_t i = 0; i < count; ++i) {                                                           \
       const Bounded b = dd_##name(args[i], c);                                                          \
       results[i] = b.value;                                                                             \
-      bounds[i] = argument_bits > 53 && b.value.hi != b.value.hi ? -1 : b.bound;                        \
+      bounds[i] = argument_bits > 53 && !is_nonzero(b.value) ? -1 : b.bound;                            \
     }                                                                                                   \
   }
 #define ULPGATE_BINARY(name)                                                                            \
@@ -30,7 +30,7 @@ namespace {
     for (std::size_t i = 0; i < count; ++i) {                                                           \
       const Bounded b = dd_##name(args[2 * i], args[2 * i + 1], c);                                     \
       results[i] = b.value;                                                                             \
-      bounds[i] = argument_bits > 53 && b.value.hi != b.value.hi ? -1 : b.bound;                        \
+      bounds[i] = argument_bits > 53 && !is_nonzero(b.value) ? -1 : b.bound;                            \
     }                                                                                                   \
   }
 

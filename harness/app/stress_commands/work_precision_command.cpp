@@ -32,7 +32,7 @@ std::vector<WorkPrecisionRow> rows_of(const WorkPrecisionJob& job) {
 void show_rows(const std::vector<WorkPrecisionRow>& rows, const SettingTimes& times, const std::string& plan,
                bool json) {
   if (json) {
-    show("{}{}{}", row_lines(rows, plan), fit_lines(rows, plan), timing_lines(rows, times, plan));
+    fmt::print("{}{}{}", row_lines(rows, plan), fit_lines(rows, plan), timing_lines(rows, times, plan));
   } else {
     print_work_precision(rows, times);
   }

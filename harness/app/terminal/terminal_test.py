@@ -51,6 +51,20 @@ def test_lists_fit_and_lose_nothing(what, columns):
         assert shown == piped
 
 
+JSON = [
+    ["list", "functions", "--json"],
+    ["at", "sin", "double", "1e22", "--json"],
+    ["work-precision", "--subjects", "sin", "--types", "float", "--samples", "50"],
+]
+
+
+@pytest.mark.parametrize("words", JSON, ids=lambda words: words[0])
+def test_json_is_not_broken(words):
+    words = words if "--json" in words else [*words, "--repeats", "0", "--json"]
+    code, piped, _ = program.run(*words)
+    assert code == 0 and on_terminal(*words, columns=40) == piped
+
+
 def test_what_goes_on_stands_below_its_column():
     lines = on_terminal("list", "integrators", columns=80).splitlines()
     at = next(i for i, line in enumerate(lines) if line.startswith("velocity_verlet"))
