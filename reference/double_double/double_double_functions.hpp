@@ -12,7 +12,7 @@ namespace ulpgate {
 // is at most bounds[i] ulp of 2^-99 of the power of two below results[i].  A negative bound says that nothing
 // is known: of arguments and results near the ends of the range, and of results next to a zero of a function.
 // Else a NaN says that f is not defined there (of arguments of no more than 53 bits: a wider type has numbers
-// beyond double), an infinity that it is beyond double, a zero, of such arguments as well, that it is 0.
+// beyond double), an infinity that it is beyond double, a zero (of these too) that it is 0.
 using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* results, double* bounds,
                                       std::size_t count, int argument_bits);
 

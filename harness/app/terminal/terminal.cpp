@@ -39,8 +39,6 @@ const char* code_of(Paint paint) {
       return "1;31";
     case Paint::note:
       return "33";
-    case Paint::head:
-      return "1";
   }
   return "0";
 }

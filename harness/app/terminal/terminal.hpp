@@ -12,7 +12,7 @@
 
 namespace ulpgate::app {
 
-enum class Paint { good, bad, note, head };
+enum class Paint { good, bad, note };
 
 // The text in colour, or as it is: where the stream is no terminal, TERM is "dumb" or not set, or NO_COLOR is
 // set to anything but nothing.  The escapes take no column: pad before painting.
