@@ -59,7 +59,7 @@ def test_stability_matrix_names_the_verdict():
     assert (row["float"], row["float_verdict"]) == ("61000.0", "unstable")
     assert row["double_verdict"] == "stable"
     assert "6.10e4 **unstable**" in table_markdown.render(table)
-    assert r"\num{6.10e4}\textsuperscript{unstable}" in table_latex.render(table)
+    assert r"\num{6.10e4}\,{\tiny unstable}" in table_latex.render(table)
     assert "6.10e4 unstable" in table_text.render(table)
 
 

@@ -144,7 +144,7 @@ def kernel_mismatches(combined):
         Column("count", "count", "count"),
         Column("reproducer", "reproducer", "command"),
     )
-    caption = "Samples whose outcome is of the wrong kind, with the first state of each class."
+    caption = "Samples whose outcome is of the wrong kind; a command shows the first state of its class."
     return Table("kernel_mismatches", caption, columns, tuple(rows))
 
 

@@ -11,7 +11,7 @@ NAME = "libraries"
 CAPTION = (
     "Maximum error in ULP, all strata that were run, against the time of one evaluation; a mark for each function and library, "
     "the marks of a function joined by a thin line. Dashed: half a ULP, the error of correct rounding. "
-    "Errors above 10^6 ULP stand at the upper edge with their function's name."
+    "Errors above 10^6 ULP stand at the upper edge with their function's name, those of 0 at the lower edge."
 )
 WIDTH_INCHES = 7.0
 HEIGHT_INCHES = 3.1

@@ -34,8 +34,8 @@ def library_time(beside):
                 rows.append((function, token, *times))
     columns = (Column("function", "function", "code"), Column("type", "type", "code"))
     caption = (
-        "Time of one evaluation in nanoseconds, of vectors a lane's share, in batches of uniform arguments; "
-        "the least of several repeats, functions of libraries in their worker."
+        "Time of one evaluation in nanoseconds, the least of several repeats over batches of uniform arguments; of a vector function its time "
+        "divided by its lanes. Functions of a library run in a process of their own."
     )
     return Table(
         "library_time", caption, (*columns, *_columns(beside, "real")), tuple(rows)
@@ -57,7 +57,7 @@ def library_findings(beside):
                             label,
                             cell.max_ulp,
                             cell.stratum,
-                            cell.argmax,
+                            cell.argmax if cell.max_ulp else None,
                             cell.mismatches,
                         )
                     )
@@ -69,7 +69,7 @@ def library_findings(beside):
         Column("max_ulp", "max ULP", "ulp"),
         Column("stratum", "stratum", "text"),
         Column("argument", "argument", "arguments"),
-        Column("mismatches", "mismatches", "count"),
+        Column("mismatches", "wrong kind", "count"),
     )
-    caption = "Where each library errs most: maximum error in ULP with its argument."
+    caption = "Where each library errs most: maximum error in ULP with its argument, where there is an error at all."
     return Table("library_findings", caption, columns, tuple(rows))

@@ -13,7 +13,7 @@ CAPTION = (
     "Largest relative error, max ULP over the strata uniform and stratified times 2^-(p-1) with p significand bits, "
     "against the time of one evaluation; a point for each function and type, of a complex function its worse part. "
     "Dashed: the rounding floor 2^-p (0.5 ULP) of each type. The vertical axis is cut where no type has a point "
-    "(grey bands). Row 'exact': no sample had an error. Row 'infinite': an infinite error. "
+    "(grey bands). Where there are such rows: 'exact', no sample had an error; 'infinite', more ULP than a double can tell. "
     "Named: the function of the largest error of each type above 4 ULP."
 )
 # Below this the largest error of a type is not worth a name.

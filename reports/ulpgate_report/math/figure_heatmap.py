@@ -9,7 +9,7 @@ def _caption(combined):
     return (
         "Maximum error in ULP (printed) of each function and type over the strata "
         f"{strata}; the colour is its decimal logarithm, from 0.5 ULP (correct rounding) to 1e6 ULP, "
-        "the same colour below and above. 0: every sample exact. inf, hatched: an infinite error. "
+        "the same colour below and above. 0: every sample exact. inf, hatched: more ULP than a double can tell. "
         "-: nothing was judged. Triangle: samples of the wrong kind "
         "(NaN, infinity, sign of zero, overflow, underflow) occurred."
     )

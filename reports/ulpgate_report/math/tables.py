@@ -19,6 +19,10 @@ def _matrix(combined, name, caption, kind, cells, value_of):
     return Table(name, caption, tuple(columns), tuple(rows))
 
 
+INFINITE = "inf: more ULP than a double can tell, in no order."
+_WRONG_KIND = "!n: n samples of the wrong kind (NaN, infinity, sign of zero, overflow, underflow)."
+
+
 def paper_table(combined):
     """The published table: maximum integer distance over its two sets of arguments."""
     strata = " and ".join(PAPER_STRATA)
@@ -26,7 +30,7 @@ def paper_table(combined):
         combined,
         "paper_table",
         f"Maximum error as an integer distance (float_distance) to the rounded reference, strata {strata} only. "
-        "!n: n samples of the wrong kind (NaN, infinity, sign of zero, overflow, underflow).",
+        + _WRONG_KIND,
         "distance",
         combined.paper_cells,
         lambda cell: cell.max_float_distance,
@@ -92,7 +96,7 @@ def type_table(combined):
     )
     caption = (
         "Rows (functions, or parts of them) of each type by their largest error, the worst of them, and results that no number of ULP describes: "
-        "how many, in how many rows, and of which kinds."
+        "how many, in how many rows, and of which kinds. " + INFINITE
     )
     return Table("type_table", caption, columns, tuple(lines))
 
@@ -122,7 +126,8 @@ def worst_table(combined, most=8):
         Column("stratum", "stratum", "text"),
         Column("command", "shown by", "command"),
     )
-    return Table("worst_table", "The largest errors of all.", columns, tuple(rows))
+    caption = f"The largest errors of all. {INFINITE}"
+    return Table("worst_table", caption, columns, tuple(rows))
 
 
 def ulp_matrix(combined):
@@ -131,7 +136,9 @@ def ulp_matrix(combined):
         combined,
         "ulp_matrix",
         "Maximum error in ULP against the unrounded reference, all strata. "
-        "!n: n samples of the wrong kind (NaN, infinity, sign of zero, overflow, underflow).",
+        + _WRONG_KIND
+        + " "
+        + INFINITE,
         "ulp",
         combined.cells,
         lambda cell: cell.max_ulp,

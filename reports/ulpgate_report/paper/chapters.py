@@ -45,14 +45,15 @@ CHAPTERS = (
     Chapter(
         "speed",
         "Speed of a whole simulation",
-        "Iterations per second of the deposition of spheres under gravity; runs beyond two standard deviations of the mean are left out.",
+        "Iterations per second of the deposition of spheres under gravity; runs beyond two standard deviations of the mean are left out. "
+        "The steps that are timed are the first: the spheres fall and hardly touch yet.",
         ("benchmark_table",),
         ("builds",),
     ),
     Chapter(
         "deposition",
         "Deposition of spheres",
-        "The scene that the speeds were measured on.",
+        "The scene that the speeds were measured on, to the end of the published run.",
         ("scene_table",),
         ("snapshots", "divergence", "energy"),
     ),

@@ -11,7 +11,7 @@ from ulpgate_report.values import type_order
 NAME = "builds"
 CAPTION = (
     "Speed of the deposition of spheres by type, a bar for each build and number of threads (%s): iterations per second, and the slowdown "
-    "against double of the same build and threads. Bars of errors: two standard deviations of the mean of the repeats that are within two of it. %s"
+    "against double of the same build and threads. Error bars: two standard deviations of the mean of the repeats that are within two of it. %s"
 )
 _PUBLISHED = "Diamonds: the published slowdowns on 16 threads. "
 _HATCHES = ("", "////", "....")

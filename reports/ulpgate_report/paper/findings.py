@@ -11,20 +11,20 @@ MASS = "mass=yade"
 # At most so many of one library, the worst first; the table of all functions has the others.
 MOST = 12
 _WORDS = {
-    "nan": "NaN where there is a value",
-    "not_nan": "a value where there is none",
-    "inf": "a wrong infinity",
-    "zero_sign": "a zero with the wrong sign",
-    "overflow_spurious": "infinity where the result is in range",
-    "overflow_missed": "a number where the result is out of range",
-    "underflow_spurious": "zero where the result is in range",
-    "nonzero_for_zero": "a number where the result is zero",
-    "exception": "an exception",
-    "crash": "a crash",
-    "hang": "no end",
-    "not_a_function": "another result on another call",
-    "lane_dependent": "another result beside other lanes",
-    "environment": "a changed floating-point environment",
+    "nan": "gives NaN where there is a value",
+    "not_nan": "gives a value where there is none",
+    "inf": "gives a wrong infinity",
+    "zero_sign": "gives a zero with the wrong sign",
+    "overflow_spurious": "gives infinity where the result is in range",
+    "overflow_missed": "gives a number where the result is out of range",
+    "underflow_spurious": "gives zero where the result is in range",
+    "nonzero_for_zero": "gives a number where the result is zero",
+    "exception": "throws an exception",
+    "crash": "crashes",
+    "hang": "does not end",
+    "not_a_function": "gives another result on another call",
+    "lane_dependent": "gives another result beside other lanes",
+    "environment": "leaves a changed floating-point environment",
 }
 
 
@@ -64,22 +64,34 @@ def library_of(context, row, token):
     return _version(context, "Boost") + " (Multiprecision)"
 
 
+def _errs(error):
+    if error == numbers.INFINITE:
+        return "errs by more ULP than a double can tell"
+    return f"errs by {numbers.short_ulp(error)} ULP"
+
+
+def _word(outcome):
+    return _WORDS.get(outcome, "gives " + outcome.replace("_", " "))
+
+
+def _at(count):
+    return f"at {count} argument{'s' * (count != 1)}"
+
+
 def _seen(cell):
     parts = []
     weight = 0.0
     if cell.max_ulp is not None and numbers.larger(cell.max_ulp, LARGE_ULP):
-        parts.append(f"errs by {numbers.short_ulp(cell.max_ulp)} ULP")
+        parts.append(_errs(cell.max_ulp))
         weight = float(min(cell.max_ulp, 1e300))
     for name, count in cell.mismatch.items():
-        parts.append(
-            f"{_WORDS.get(name, name.replace('_', ' '))} at {count} of {cell.samples} arguments"
-        )
+        parts.append(f"{_word(name)} at {count} of {cell.samples} arguments")
         weight = max(weight, 1e6 * count / cell.samples)
     return parts, weight
 
 
-def of_functions(combined):
-    """Findings of a run of functions."""
+def of_functions(combined, library=None):
+    """Findings of a run of functions; those of a `library` are called there, not by the program itself."""
     first = {}
     for record in combined.records:
         key = (record["function"], record["part"], record["type"])
@@ -96,7 +108,7 @@ def of_functions(combined):
         args = args or first.get((row.function, row.part, token), ())
         found.append(
             Finding(
-                library_of(combined.context, row, token),
+                library or library_of(combined.context, row, token),
                 row.label,
                 token,
                 "; ".join(parts),
@@ -105,6 +117,12 @@ def of_functions(combined):
             )
         )
     return found
+
+
+def _first(claim):
+    """The arguments of a result of the wrong kind; of those that depend on other lanes only where there is none else."""
+    found = sorted(claim["mismatches"], key=lambda m: m["outcome"] == "lane_dependent")
+    return next((m["args"] for m in found if m["args"]), claim["args"])
 
 
 def of_claims(rows):
@@ -116,14 +134,9 @@ def of_claims(rows):
         error = numbers.measured(one["largest_ulp"])
         parts = []
         if error is not None and numbers.larger(error, one["claim_ulp"]):
-            parts.append(
-                f"errs by {numbers.short_ulp(error)} ULP where {one['claim_ulp']} is documented"
-            )
-        parts += [
-            f"{_WORDS.get(m['outcome'], m['outcome'].replace('_', ' '))} at {m['count']} arguments"
-            for m in one["mismatches"]
-        ]
-        args = one["args"] or next((m["args"] for m in one["mismatches"]), [])
+            parts.append(f"{_errs(error)} where {one['claim_ulp']:g} is documented")
+        parts += [f"{_word(m['outcome'])} {_at(m['count'])}" for m in one["mismatches"]]
+        args = one["args"] if parts and parts[0].startswith("errs") else _first(one)
         library = one["implementation"].split()[0] if one["implementation"] else ""
         command = " ".join(["ulpgate at", one["function"], one["type"], *args])
         found.append(
@@ -164,8 +177,8 @@ def of_pendulum(pendulum):
                 "YADE",
                 "mass of the pendulum's nodes",
                 token,
-                f"4/3 and pi are taken in double on the way to the mass: at a step of {dt} s the run stays with its own 150 digits for "
-                f"{contaminated:.2f} s, with the exact mass for {exact:.2f} s",
+                f"takes 4/3 and pi in double on the way to the mass, in every type: at a step of {dt} s a run with that mass stays true to the "
+                f"same run in 150 digits (t_s) for {contaminated:.2f} s, one with the exact mass for {exact:.2f} s",
                 f"ulpgate scene ladder {scene} --types {token} --set {MASS}",
                 (0, contaminated - exact),
             )

@@ -7,6 +7,8 @@ from ulpgate_report.tables import table_latex
 
 FIGURE_HEIGHT_MM = 205.0
 _MM_PER_INCH = 25.4
+_LONGEST_WORD = 30
+_LANDSCAPE = r"\begin{landscape}"
 # What is set as mathematics in a caption: 2^-p, 1e6 beside a unit stays as it is typed in commands.
 _POWER = re.compile(r"\b(\w+)\^(-?\w+|-?\([\w-]+\))")
 
@@ -14,7 +16,7 @@ _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
 \usepackage[textwidth=183mm,textheight=257mm]{geometry}
 \usepackage{array,booktabs,longtable,pdflscape,graphicx,siunitx}
-\usepackage[font=footnotesize,labelfont=bf,skip=4pt]{caption}
+\usepackage[font=footnotesize,labelfont=bf,skip=4pt,justification=raggedright]{caption}
 \usepackage[hidelinks]{hyperref}
 \pdfinfoomitdate=1
 \pdftrailerid{}
@@ -24,19 +26,27 @@ _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \title{Numerical accuracy, measured}
 \author{made by \texttt{scripts/paper} of ulpgate %s}
 \date{}
+\hypersetup{pdftitle={Numerical accuracy, measured},pdfauthor={ulpgate}}
 \begin{document}
 \maketitle
+\begin{abstract}\noindent
 %s
+\end{abstract}
 """
 _TAIL = "\\end{document}\n"
 
 
-def tex_command(text, every=6):
-    """Typewriter text that may break anywhere, whole: a command is there to be copied."""
-    pieces = [text[i : i + every] for i in range(0, len(text), every)]
-    return (
-        r"\texttt{" + r"\allowbreak{}".join(map(table_latex.escape_code, pieces)) + "}"
-    )
+def _breakable(word):
+    """A word of a command; a long list may break after its commas, and what is longer yet anywhere."""
+    if len(word) <= _LONGEST_WORD:
+        return table_latex.escape_code(word)
+    pieces = re.findall(rf"[^,]{{1,{_LONGEST_WORD}}},?", word)
+    return r"\allowbreak{}".join(map(table_latex.escape_code, pieces))
+
+
+def tex_command(text):
+    """Typewriter text, whole: a command is there to be copied, so that it breaks between its words."""
+    return r"\texttt{" + " ".join(map(_breakable, text.split(" "))) + "}"
 
 
 def caption(said):
@@ -67,8 +77,13 @@ def table(found):
     plain = table_latex.escape(shown.caption)
     text = text.replace(plain, caption(shown.caption))
     if sideways:
-        return f"\\begin{{landscape}}\n{text}\\end{{landscape}}\n"
+        return f"{_LANDSCAPE}\n{text}\\end{{landscape}}\n"
     return text
+
+
+def is_sideways(path):
+    """Whether a table's fragment turns the page."""
+    return path.read_text(encoding="utf-8").startswith(_LANDSCAPE)
 
 
 def inches(png, dots_per_inch):
@@ -102,10 +117,11 @@ def findings(by_library):
         for same in found:
             worst = same[0]
             command = f" {tex_command(worst.command)}" if worst.command else ""
-            types = ", ".join(one.type for one in same)
+            types = list(dict.fromkeys(one.type for one in same))
+            where = f"in {worst.type} " if len(types) > 1 else ""
             lines.append(
-                rf"\item \texttt{{{table_latex.escape_code(worst.subject)}}} ({table_latex.escape(types)}): "
-                rf"in {table_latex.escape(worst.type)} {table_latex.escape(worst.says)}.{command}"
+                rf"\item \texttt{{{table_latex.escape_code(worst.subject)}}} ({table_latex.escape(', '.join(types))}): "
+                rf"{table_latex.escape(where + worst.says)}.{command}"
             )
         if more:
             lines.append(rf"\item and {more} more, in \texttt{{data/findings.csv}}.")

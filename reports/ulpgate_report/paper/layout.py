@@ -56,6 +56,20 @@ def _shortened(found):
     )
 
 
+def _without_empty(found):
+    """The table without columns that no row has anything in."""
+    kept = [
+        i
+        for i in range(len(found.columns))
+        if not found.rows or any(row[i] is not None for row in found.rows)
+    ]
+    return dataclasses.replace(
+        found,
+        columns=tuple(found.columns[i] for i in kept),
+        rows=tuple(tuple(row[i] for i in kept) for row in found.rows),
+    )
+
+
 def prose_widths(found, width_mm):
     """The widths of the columns of prose, mm, in a table of that width; None where it has no room for them.
 
@@ -89,7 +103,7 @@ def laid_out(found):
 
     One that is too wide loses its commands; of few rows it is turned, else the page is.
     """
-    found = _shortened(found)
+    found = _shortened(_without_empty(found))
     has_command = any(c.kind == "command" for c in found.columns)
     ways = [found, table_latex.without_commands(found)] if has_command else [found]
     for way in ways:

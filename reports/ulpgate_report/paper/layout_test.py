@@ -50,6 +50,33 @@ def test_columns_of_prose_fill_the_page_and_no_more(words):
         assert widths[0] < 30 and widths[1] > 60
 
 
+def test_columns_without_anything_are_left_out():
+    found = _table([("x", None), ("y", None)], CODE, COMMAND)
+    assert layout.laid_out(found)[1].columns == (CODE,)
+
+
+def test_a_table_goes_on_with_its_name_and_its_ends_stay_together():
+    text = fragments.table(_numbers(3, 9))
+    assert (
+        r"\multicolumn{3}{@{}l}{\footnotesize\bfseries Table \thetable, continued}"
+        in text
+    )
+    rows = [line for line in text.splitlines() if r"\num{12345678}" in line]
+    assert [line.endswith("*") for line in rows] == [True] * 3 + [False] * 3 + [
+        True,
+        True,
+        False,
+    ]
+
+
+def test_a_command_breaks_between_its_words():
+    text = fragments.tex_command(
+        "ulpgate math --types float,double,long_double,float128"
+    )
+    assert text.count(" ") == 3 and r"long\char95{}double" in text
+    assert r"\allowbreak{}" in text, "a list has no other place to break"
+
+
 def test_no_room_for_prose_is_said():
     found = _table([("c" * 130, "word " * 50)], CODE, PROSE)
     assert layout.prose_widths(found, layout.TEXT_WIDTH_MM) is None

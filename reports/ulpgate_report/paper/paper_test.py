@@ -6,7 +6,20 @@ import subprocess
 
 import pytest
 
-from ulpgate_report.paper import check, cli, findings, fragments, source, write
+from ulpgate_report.libraries import kind as kind_libraries
+from ulpgate_report.libraries.beside import Beside
+from ulpgate_report.math import combine
+from ulpgate_report.paper import (
+    check,
+    cli,
+    findings,
+    fragments,
+    provenance,
+    source,
+    tables,
+    write,
+)
+from ulpgate_report.records import records
 from ulpgate_report.testing import sample_pendulum, sample_records, sample_scenes
 
 CLAIM = {
@@ -138,11 +151,64 @@ def test_findings_name_the_library_and_the_command(paper):
     with open(out / "data/findings.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     mine = [r for r in rows if r["library"] == "libsleef.so.3"]
-    assert mine[0]["says"] == "errs by 8556 ULP where 1.0 is documented"
+    assert mine[0]["says"] == "errs by 8556 ULP where 1 is documented"
     assert mine[0]["command"] == (
         "ulpgate at sin double 0x1.065c829d6873p+40 --library libsleef.so.3 --symbol Sleef_sin_u10"
     )
     assert r"\input{findings.tex}" in (out / "paper.tex").read_text()
+
+
+def _claim(**changed):
+    found = {"function": "remainder", "type": "double", "symbol": "remainder"}
+    found |= {"implementation": "libm.so.6 remainder", "claim_ulp": 0.5}
+    found |= {
+        "arguments": 1000,
+        "largest_ulp": 0.0,
+        "args": ["0x1p+0"],
+        "holds": False,
+        "mismatches": [],
+    }
+    return found | changed
+
+
+def test_a_command_shows_what_is_wrong_and_not_the_largest_error():
+    wrong = [
+        {"outcome": "lane_dependent", "count": 2, "args": ["0x1p+9"]},
+        {"outcome": "zero_sign", "count": 1, "args": ["-0x1p-3"]},
+    ]
+    (found,) = findings.of_claims([_claim(mismatches=wrong)])
+    assert found.says == (
+        "gives another result beside other lanes at 2 arguments; gives a zero with the wrong sign at 1 argument"
+    )
+    assert found.command.startswith("ulpgate at remainder double -0x1p-3 --library")
+    (found,) = findings.of_claims([_claim(mismatches=wrong, largest_ulp=3.0)])
+    assert found.says.startswith("errs by 3.00 ULP where 0.5 is documented; gives")
+    assert " 0x1p+0 --library" in found.command
+
+
+def test_claims_say_where_they_are_made():
+    rows = [_claim(domain=[[-709.0, 709.0]]), _claim(domain=[])]
+    assert [row[3] for row in tables.claims(rows).rows] == ["-709, 709", None]
+
+
+def test_other_libraries_have_their_findings():
+    context = sample_records.context(["sin"])
+    run = combine.combine_run(
+        records.Run(context, sample_records.math_records(context), {})
+    )
+    beside = Beside(("glibc", "musl"), (run, run))
+    found = write.libraries_of({kind_libraries: beside})
+    assert found == [("musl", run)]
+    assert {f.library for f in findings.of_functions(run, "musl")} <= {"musl"}
+
+
+def test_samples_are_those_of_a_stratum():
+    both = {"samples": 100, "strata": ["uniform", "stratified", "binades"]}
+    assert provenance.arguments(both).startswith("50 samples")
+    one = {"samples": 100, "strata": ["uniform"]}
+    assert provenance.arguments(one).startswith("100 samples")
+    states = {"samples": 64, "strata": ["uniform", "stratified", "cone"]}
+    assert provenance.arguments(states).startswith("64 samples")
 
 
 def test_a_contaminated_constant_is_a_finding():

@@ -4,6 +4,8 @@ import json
 from ulpgate_report.records.errors import InvalidInput
 
 COMMANDS = "commands.json"
+_SHARING = {"uniform", "stratified"}
+_OF_FUNCTIONS = _SHARING | {"binades", "narrow", "edges", "hard", "worst", "exhaustive"}
 # Of all that a context names, what decides the last bits of a result.
 _NAMED = ("glibc", "Boost", "MPFR", "GMP", "MPC", "Eigen")
 
@@ -62,12 +64,18 @@ def machine(context):
     return ", ".join(filter(None, [*parts, _libraries(context.get("libraries", {}))]))
 
 
+def _drawn(samples, strata):
+    """How many samples a stratum has; of functions the two published ones share them, and others have as many as one."""
+    shared = isinstance(strata, list) and _SHARING <= set(strata) <= _OF_FUNCTIONS
+    return f"{samples // 2 if shared else samples} samples in each drawn stratum"
+
+
 def arguments(context):
     """Samples, seed and strata, of what has them."""
     found = []
     samples = context.get("samples")
     if isinstance(samples, int):
-        found.append(f"{samples} samples in each drawn stratum")
+        found.append(_drawn(samples, context.get("strata")))
     if "seed" in context:
         found.append(f"seed {_said(context['seed'])}")
     strata = context.get("strata")

@@ -15,12 +15,15 @@ from ulpgate_report.paper import (
     source,
     tables,
 )
+from ulpgate_report.libraries import kind as kind_libraries
 from ulpgate_report.math import kind as kind_math
 from ulpgate_report.pendulum import kind as kind_pendulum
 from ulpgate_report.scenes import kind as kind_scenes
 from ulpgate_report.tables import table_csv
 
 MANIFEST = "data/manifest.json"
+# Of the libraries side by side what this program is linked with.
+OWN_LIBRARIES = ("glibc",)
 COLUMN = "_column"
 # What is larger in one column is no figure for a column: heat maps of all functions, say.
 MOST_COLUMN_INCHES = (3.7, 9.6)
@@ -143,13 +146,27 @@ def _chapter(writer, one, commands, tell):
         for name in chapter.tables
         if name in found and found[name].rows
     ]
-    return inputs + _write_figures(writer, one, said, prefix, tell)
+    figures = _write_figures(writer, one, said, prefix, tell)
+    # Tables on their side have pages of their own: last, so that no page ends before them.
+    upright = [i for i in inputs if not fragments.is_sideways(writer.out / i)]
+    return upright + figures + [i for i in inputs if i not in upright]
+
+
+def libraries_of(data):
+    """(name, its functions) of libraries side by side; what this program calls itself is in the chapter of functions."""
+    beside = data.get(kind_libraries)
+    if beside is None:
+        return ()
+    own = [label for label in beside.labels if label in OWN_LIBRARIES]
+    return [one for one in zip(beside.labels, beside.runs) if one[0] not in own]
 
 
 def _write_findings(writer, runs, sources):
     found = []
     for one in sources:
         data = dict(one.parts)
+        for label, run in libraries_of(data):
+            found += findings.of_functions(run, label)
         if kind_math in data:
             found += findings.of_functions(data[kind_math])
         if kind_pendulum in data:
@@ -190,8 +207,9 @@ def write(runs, out, history=None, tell=lambda _: None):
     found = _write_findings(writer, runs, sources)
     if found:
         says = (
-            f"{len(found)} findings from the records above: results of the wrong kind, errors beyond {findings.LARGE_ULP:g} ULP, documented bounds that "
-            "do not hold; each with the command that shows it. Some errors are what a library promises and no more; none is what a user expects."
+            f"{len(found)} findings from the records above, a function in a type each: results of the wrong kind, errors beyond {findings.LARGE_ULP:g} ULP, "
+            "documented bounds that do not hold, and constants of too few digits; types of one function are told together, with the command that shows "
+            "the worst. Some errors are what a library promises and no more; none is what a user expects."
         )
         chapters.append(("Findings", says, ["findings.tex"]))
     context = sources[0].context
@@ -201,7 +219,7 @@ def write(runs, out, history=None, tell=lambda _: None):
         f"Made on {provenance.machine(context)}."
     )
     if left_out:
-        abstract += " Left out: " + " ".join(left_out)
+        abstract += " Not in this paper: " + " ".join(left_out)
     writer.text("paper.tex", fragments.document(version, abstract, chapters))
     manifest = {"commands": commands, "files": dict(sorted(writer.files.items()))}
     output.write_text(out / MANIFEST, json.dumps(manifest, indent=1) + "\n")

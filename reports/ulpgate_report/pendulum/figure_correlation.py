@@ -15,8 +15,8 @@ LIMIT = 0.9
 _CAPTION = (
     "%s: correlation of the product of the angles between the rods with a reference run, chunk by chunk. Broken: the "
     "limit %s. The vertical line is t_s, the start of the first chunk below the limit; from there on the strip is grey. "
-    "At the right: t_s and what limits it. Strips in black judge the reference: against a run of four times its digits, "
-    "and against one of half its step."
+    "At the right: t_s and what limits it. Strips named RealHP<4> and half the step judge the reference: against a run of "
+    "four times its digits, and against one of half its step."
 )
 _STRIP_INCHES = 0.5
 _WIDTH_INCHES = 7.0

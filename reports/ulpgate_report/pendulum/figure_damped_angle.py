@@ -13,7 +13,7 @@ DEGREE = 3
 _CAPTION = (
     "%s: angle between the rods 1 and 2 against time, a strip for each type, smoothed by a Savitzky-Golay filter (window "
     "%.4g s, degree %d; Savitzky, Golay, Anal. Chem. 36, 1964). At the right the angle as it is, around the time at which "
-    "the type has parted by %.4g rad, or as above where it has not; the grey band at the left shows where that is.%s"
+    "the type has parted by %.4g rad, or the same time as in the strip above where it has not parted; the grey band at the left shows where that is.%s"
 )
 _BEHIND = " Grey lines: the same in %s."
 _MOST_POINTS = 4000

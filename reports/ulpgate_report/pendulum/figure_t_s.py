@@ -17,7 +17,7 @@ from ulpgate_report.values import time_step, type_order
 FAMILY = "pendulum_t_s"
 _CAPTION = (
     "%s: how long the angles correlate with the reference run, t_s, against type. Filled: limited by rounding; hollow: by "
-    "time-stepping. An arrow: true to the end of the run, so that t_s is longer. The reference stands at its correlation "
+    "time-stepping. An arrow, filled too: true to the end of the run, so that t_s is longer. The reference stands at its correlation "
     "with a run of four times its digits. Dotted, in the colour of its step: until then the reference agrees with its run "
     "of half the step.%s"
 )

@@ -8,7 +8,7 @@ _SCENE = Column("scene", "scene", "code")
 _VARIANT = Column("variant", "variant", "text")
 _TYPE = Column("type", "type", "code")
 _DT = Column("dt_s", "dt (s)", "text")
-_LETTERS = {"rounding": "r", "time-stepping": "s", "the end of the run": "e"}
+_LETTERS = {"rounding": "r", "time-stepping": "t", "the end of the run": "e"}
 _AGAINST = {OWN_REFERENCE: "its own RealHP<4>", HALF_STEP: "half its step"}
 
 
@@ -78,7 +78,7 @@ def pendulum_divergence(pendulum):
     )
     caption = (
         "How long the angles of the pendulum correlate with the reference run: t_s in s, the start of the first chunk "
-        "whose correlation is below the limit, for each time step; >= where no chunk is. Limited by r: rounding, s: "
+        "whose correlation is below the limit, for each time step; >= where no chunk is. Limited by r: rounding, t: "
         "time-stepping (the reference parts from itself at half the step no later), e: the end of the run. The rows "
         "against RealHP<4> and half the step judge the reference itself."
     )

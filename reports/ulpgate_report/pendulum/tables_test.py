@@ -37,7 +37,7 @@ def test_divergence_table():
     ]
     assert list(rows[0])[4:] == ["t_s_dt_1e-5", "t_s_dt_1e-6", "published_t_s"]
     assert rows[1]["t_s_dt_1e-5"] == "2.90 r" and rows[1]["published_t_s"] == "2.5"
-    assert rows[2]["t_s_dt_1e-5"] == "9.30 s", "time-stepping limits it"
+    assert rows[2]["t_s_dt_1e-5"] == "9.30 t", "time-stepping limits it"
     assert rows[3]["t_s_dt_1e-6"] == ">= 16.00 e" and not rows[3]["published_t_s"]
     assert published.CITATION in table.caption
 

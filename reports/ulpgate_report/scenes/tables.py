@@ -13,6 +13,12 @@ def _field(record, name):
     return numbers.signed(record.get(name))
 
 
+def _energy_error(record):
+    """None where no account was kept: a record has 0 there."""
+    found = _field(record, "max_energy_error")
+    return found if found != 0 or record.get("energy") else None
+
+
 def scene_table(scenes):
     """What was run and where it ended."""
     rows = []
@@ -31,7 +37,7 @@ def scene_table(scenes):
                 record.get("contacts"),
                 _field(record, "kinetic_energy_half_step_J"),
                 *map(numbers.signed, mean),
-                _field(record, "max_energy_error"),
+                _energy_error(record),
             )
         )
     columns = (

@@ -7,6 +7,7 @@ COLUMNS_OF_PORTRAIT = 9
 # Beside more columns than these a command has no room.
 COLUMNS_OF_COMMANDS = 10
 MANY_COLUMNS = 8
+_ROWS_TOGETHER = 3
 PROSE_MM, SHARED_PROSE_MM = 70, 80
 _SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -41,7 +42,9 @@ def escape(text):
 def escape_code(text):
     """The same in typewriter type, which has the signs of less and greater where others have none."""
     plain = escape(text)
-    return plain.replace(r"\textless{}", "<").replace(r"\textgreater{}", ">")
+    plain = plain.replace(r"\textless{}", "<").replace(r"\textgreater{}", ">")
+    # The underscore of its own font, which can be copied; others draw a line.
+    return plain.replace(r"\_", r"\char95{}")
 
 
 def _number(text):
@@ -59,7 +62,8 @@ def _text(cell, kind):
         shown = rf"\texttt{{{escape_code(shown)}}}"
     else:
         shown = escape(shown)
-    return shown + rf"\textsuperscript{{{escape(mark)}}}" if mark else shown
+    # Not raised: beside a power of ten it would be one more exponent.
+    return shown + rf"\,{{\tiny {escape(mark)}}}" if mark else shown
 
 
 def _shape(kind, prose_mm):
@@ -140,13 +144,19 @@ def render(table, prose_mm=None):
         rf"\caption{{{_caption(table)}}}\label{{tab:{table.name}}}\\",
         *head,
         r"\endfirsthead",
+        rf"\multicolumn{{{len(kinds)}}}{{@{{}}l}}{{\footnotesize\bfseries Table \thetable, continued}}\\",
         *head,
         r"\endhead",
         r"\bottomrule",
         r"\endfoot",
     ]
-    for row in table.rows:
-        lines.append(" & ".join(map(_text, row, kinds)) + r" \\")
+    last = len(table.rows) - 1
+    for place, row in enumerate(table.rows):
+        # No page begins or ends with one or two rows of a table.
+        together = place < _ROWS_TOGETHER or last - _ROWS_TOGETHER < place < last
+        lines.append(
+            " & ".join(map(_text, row, kinds)) + (r" \\*" if together else r" \\")
+        )
     return "\n".join([*lines, r"\end{longtable}}", ""])
 
 

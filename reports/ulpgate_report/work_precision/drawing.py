@@ -11,7 +11,7 @@ _FLOOR = {"linestyle": (0, (5, 3)), "linewidth": 0.7, "zorder": 1}
 # A floor that is so far below the smallest error is named at the edge.
 FAR = 1e-6
 _FRONT = {"color": "0.82", "linewidth": 5, "solid_capstyle": "round", "zorder": 1.5}
-CAPTION_FLOORS = "Broken lines: the roundoff u = 2^-p of the types."
+CAPTION_FLOORS = "Broken lines: the roundoff u = 2^-p of the types. Light bands from edge to edge: a stretch of an axis without a mark, cut out."
 
 
 def name_of(*parts):

@@ -9,13 +9,14 @@ from ulpgate_report.work_precision import drawing, settings
 
 KINDS = ("trajectory", "scene")
 _CAPTION = (
-    "%s %s: %s. %sGrey band: the settings that no other betters in both (Pareto front%s); a gain in error of less than 2 %% is none. "
-    + drawing.CAPTION_FLOORS
+    "%s %s: %s. %sGrey band through marks: the settings with an error below 1 that no other betters in both (Pareto front%s); a gain in error of less than "
+    "2 %% is none. " + drawing.CAPTION_FLOORS
 )
 _PANELS = (
     "Above: every setting by its type, named where the front changes its integrator. Below: a panel for each type, a curve "
-    "for each integrator over its steps, in grey those seldom on a front; the axes differ from panel to panel. "
+    "for each integrator over its steps; the axes differ from panel to panel. "
 )
+_SELDOM = "In grey integrators that are seldom on a front. "
 _ONE_PLOT = "A curve for each type%s over its steps. "
 # As many integrators as dashes tell apart in the colours of the types; more get a panel for each type.
 _DASHES = ("-", (0, (4, 1.5)), (0, (1.2, 1.2)))
@@ -215,7 +216,8 @@ def _draw(measured, rows, pair):
     """(figure, whether it has panels); None where every setting failed."""
     if not any(settings.point(row, pair) for row in rows):
         return None, False
-    ranking = ranked(rows, pair)
+    # What failed at every setting has no curve, and no entry in the legend.
+    ranking = ranked([row for row in rows if settings.point(row, pair)], pair)
     if len(ranking) > len(_DASHES):
         return _draw_with_panels(measured, rows, pair, ranking), True
     figure, plot = pyplot.subplots(figsize=(figure_style.width(5.6), 3.8))
@@ -235,6 +237,8 @@ def draw(measured):
             each = " and integrator" if len(methods) > 1 else ""
             alone = f", integrator {min(methods)}" if len(methods) == 1 else ""
             how = _PANELS if has_panels else _ONE_PLOT % each
+            if has_panels and len(methods) > 2 * _COLOURS:
+                how += _SELDOM
             within = ", of all types above, of each below" if has_panels else ""
             about = (kind.capitalize(), name + alone, drawing.words_of(pair))
             caption = _CAPTION % (*about, how, within)

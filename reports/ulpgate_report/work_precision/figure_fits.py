@@ -14,7 +14,8 @@ _ERRORS = (("energy_error", "energy_error"), ("final_error", "error"))
 _CAPTION = (
     "%s %s: %s over the step, a point for each setting, and thin lines for the law max(C dt^p, B sqrt(n) u, D n u) of n steps "
     "and unit roundoff u that is fitted to them, a colour for each type; named: its branches. Star: the best step of a type. "
-    "Dashed: where the law does not hold. %sBroken grey lines: the roundoff u = 2^-p of the types.%s"
+    "Dashed: where the law does not hold. %sBroken dark lines without marks: the roundoff u = 2^-p of the types. Integrators without a law of "
+    "any type are left out; a type that lies on a more precise one is hidden by it.%s"
 )
 _OTHERS = {0: "", 1: "One other integrator is in the table. "}
 _MANY = "%d other integrators are in the table. "

@@ -22,6 +22,7 @@ _ERRORS = columns_of(
     energy_error="energy error",
     t_s="t_s (s)",
 )
+_ENERGY = "Energy stands for what a problem conserves: of a reaction its mass."
 _SECONDS = columns_of("real", seconds="time (s)")
 _COMMAND = columns_of("command", command="command")
 
@@ -66,8 +67,9 @@ def work_precision_front(measured):
     told += (*columns_of("text", best="of all types"), *_COMMAND)
     caption = (
         "What an error costs: of each problem or scene and type the settings that no other of this type betters in error "
-        "and time (Pareto front), the cheapest first, and whether they are on the front of all types too. Of planned "
-        "steps the step is their mean."
+        "and time (Pareto front), the cheapest first, and whether they are on the front of all types too; an error of 1 and more "
+        f"is on none, and a gain of less than {settings.GAIN:.0%} is none. Steps are in the problem's unit of time; of planned ones "
+        "it is their mean. " + _ENERGY
     )
     return Table("work_precision_front", caption, told, tuple(rows))
 
@@ -150,6 +152,13 @@ _FITTED = columns_of(
 )
 
 
+def _holds(fit):
+    """Whether the law holds; None where none was fitted."""
+    if fit["residual"] is None:
+        return None
+    return "no" if fit.get("bad") else "yes"
+
+
 def work_precision_fits(measured):
     """The law of the errors of each integrator and type, and the best step that follows."""
     about = _SUBJECT + columns_of(
@@ -160,16 +169,17 @@ def work_precision_fits(measured):
             *_values(fit, about),
             fit["error"].removesuffix("_error"),
             *_values(fit, _FITTED),
-            "no" if fit.get("bad") else "yes",
+            _holds(fit),
         )
         for fit in measured.fits
     ]
     told = (*about, *columns_of("text", error="error"), *_FITTED)
-    told += columns_of("text", bad="holds")
+    told += columns_of("text", holds="holds")
     caption = (
         "Errors fitted as max(C dt^p, B sqrt(n) u, D n u) over n steps with unit roundoff u: time-stepping, unbiased and "
         "biased rounding. Residual: in decades, root mean square; where the law does not hold, the error is of another "
-        "form. The best step is that of the least error; crossing: where rounding takes over."
+        "form; -: no law was fitted, since too few settings have an error below 1. The best step, in the problem's unit of time, is that of the "
+        "least error; crossing: where rounding takes over. " + _ENERGY
     )
     return Table("work_precision_fits", caption, told, tuple(rows))
 
