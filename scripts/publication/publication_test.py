@@ -47,7 +47,7 @@ def test_a_command_is_shown_as_people_type_it():
     assert shown["math"].startswith("ulpgate math --functions all --types double")
     assert "--worst-cases ci/worst_cases" in shown["math"]
     assert shown["speed/release_2"] == (
-        "ulpgate scene speed deposition --types double --steps 20 --repeats 5 --threads 2"
+        "ulpgate scene speed deposition --types double --steps 20 --repeats 8 --threads 2"
     )
     assert (
         shown["libraries"] == "scripts/libraries libraries --samples 20000 --threads 1"

@@ -19,7 +19,13 @@ def _matrix(combined, name, caption, kind, cells, value_of):
     return Table(name, caption, tuple(columns), tuple(rows))
 
 
-INFINITE = "inf: more ULP than a double can tell, in no order."
+def _told(caption, errors):
+    """A caption that says what inf is, where an error is it."""
+    is_met = numbers.INFINITE in errors
+    said = " inf: more ULP than a double can tell, in no order." if is_met else ""
+    return caption + said
+
+
 _WRONG_KIND = "!n: n samples of the wrong kind (NaN, infinity, sign of zero, overflow, underflow)."
 
 
@@ -96,8 +102,9 @@ def type_table(combined):
     )
     caption = (
         "Rows (functions, or parts of them) of each type by their largest error, the worst of them, and results that no number of ULP describes: "
-        "how many, in how many rows, and of which kinds. " + INFINITE
+        "how many, in how many rows, and of which kinds."
     )
+    caption = _told(caption, [cell.max_ulp for cell in combined.cells.values()])
     return Table("type_table", caption, columns, tuple(lines))
 
 
@@ -126,19 +133,18 @@ def worst_table(combined, most=8):
         Column("stratum", "stratum", "text"),
         Column("command", "shown by", "command"),
     )
-    caption = f"The largest errors of all. {INFINITE}"
+    caption = _told("The largest errors of all.", [row[2] for row in rows])
     return Table("worst_table", caption, columns, tuple(rows))
 
 
 def ulp_matrix(combined):
     """Maximum ULP error, function by type."""
+    caption = "Maximum error in ULP against the unrounded reference, all strata. "
+    errors = [cell.max_ulp for cell in combined.cells.values()]
     return _matrix(
         combined,
         "ulp_matrix",
-        "Maximum error in ULP against the unrounded reference, all strata. "
-        + _WRONG_KIND
-        + " "
-        + INFINITE,
+        _told(caption + _WRONG_KIND, errors),
         "ulp",
         combined.cells,
         lambda cell: cell.max_ulp,

@@ -110,7 +110,8 @@ def _draw_overview(plot, measured, rows, pair, dashes):
             place = here.index(token)
             style.update(markersize=3.2 + place, zorder=3 - 0.05 * place)
         if dashes:
-            style.update(linestyle=dashes[method], linewidth=0.9)
+            # What failed at every setting has crosses and no place among the dashes.
+            style.update(linestyle=dashes.get(method, "-"), linewidth=0.9)
         else:
             # Thousands of points: pixels inside the vector files keep them small.
             style.update(linestyle="none", alpha=0.75, rasterized=True)
@@ -147,7 +148,7 @@ def _draw_panel(plot, measured, rows, pair, places):
     drawing.draw_front(plot, rows, pair, scales)
     drawing.draw_floors(plot, measured, [token], pair, scales, names=False)
     for (_, method), mine in settings.curves(rows).items():
-        style = style_of(places[method])
+        style = style_of(places.get(method, len(places)))
         _draw_curves(plot, mine, pair, scales, style)
         drawing.draw_failed(plot, mine, pair, scales, style["color"])
     plot.set_title(token, size=8, pad=3)

@@ -200,6 +200,11 @@ HARD = {
     "all failed": ([FAILED], [], 0),
     "failed but timed": ([FAILED], [TIME], 0),
     "one of two failed": ([ONE, {**FAILED, "steps": 5}], [TIME], 1),
+    "one integrator failed": (
+        [ONE, {**FAILED, "integrator": "verlet", "dt_text": "0.5"}],
+        [TIME],
+        1,
+    ),
     "exact": ([{**ONE, "final_error": 0}], [TIME], 1),
     "no error": ([NO_ERROR], [TIME], 0),
     "beyond one": ([{**ONE, "final_error": 1e300}], [TIME], 1),
