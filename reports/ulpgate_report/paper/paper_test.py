@@ -187,8 +187,10 @@ def test_a_command_shows_what_is_wrong_and_not_the_largest_error():
 
 
 def test_claims_say_where_they_are_made():
-    rows = [_claim(domain=[[-709.0, 709.0]]), _claim(domain=[])]
-    assert [row[3] for row in tables.claims(rows).rows] == ["-709, 709", None]
+    domains = [[-709.0, 709.0]], [], [[None, 26.2]], [[1.0, None]]
+    found = tables.claims([_claim(domain=domain) for domain in domains])
+    told = ["-709, 709", None, "-inf, 26.2", "1, inf"]
+    assert [row[3] for row in found.rows] == told
 
 
 def test_other_libraries_have_their_findings():

@@ -64,8 +64,13 @@ def beside_published(combined):
 
 
 def _domain(found):
-    """Where a bound is documented; None of all arguments."""
-    return "; ".join(", ".join(f"{x:g}" for x in one) for one in found or ()) or None
+    """Where a bound is documented; None of all arguments. Records have no infinity: an end that is none is null."""
+
+    def end(value, beyond):
+        return beyond if value is None else f"{value:g}"
+
+    intervals = (f"{end(low, '-inf')}, {end(high, 'inf')}" for low, high in found or ())
+    return "; ".join(intervals) or None
 
 
 def _told(mismatch):
