@@ -39,6 +39,15 @@ class NativeStage {
             args.size(), first_index,    largest_error,   inexact_results(id_)};
   }
 
+  // The same of any number of arguments.
+  [[nodiscard]] WideScanInput scan_input(std::span<const double> args, std::span<const double> results,
+                                         std::uint64_t first_index, double largest_error) const
+      requires(std::same_as<Real, double>&& std::same_as<W, DoubleDouble>) {
+    const double* single = args.size() == results.size() ? args.data() : nullptr;
+    return {single,         results.data(), results_.data(), bounds_.data(),
+            results.size(), first_index,    largest_error,   inexact_results(id_)};
+  }
+
   [[nodiscard]] long double value(std::size_t i) const { return static_cast<long double>(results_[i]); }
 
   // What is known of `got`, the result at point i of the loaded ones, whose arguments are `args`; false where

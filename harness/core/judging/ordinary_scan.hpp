@@ -1,4 +1,5 @@
-// Scan of a batch of binary32 results against binary64 references: settles the ordinary ones, many at a time.
+// Scans of a batch of binary32 results against binary64 references, and of binary64 results against
+// double-double ones: they settle the ordinary ones, many at a time.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "harness/core/judging/exact_results.hpp"
+#include "reference/double_double/double_double.hpp"
 
 namespace ulpgate {
 
@@ -28,14 +30,29 @@ struct ScanInput {
   InexactResults inexact;
 };
 
+// Of functions of one argument or more: args is null where there are more.
+struct WideScanInput {
+  const double* args;
+  const double* results;
+  const DoubleDouble* values;
+  const double* bounds;  // of the values, in ulp of double-double; negative: nothing is known
+  std::size_t count;
+  std::uint64_t first_index;
+  double largest_error;
+  InexactResults inexact;
+};
+
 // Writes a verdict for each sample.  Settled are results that are the correctly rounded ones, whose error is
 // surely no maximum and surely in one bucket and on one side of the mean's threshold, and agreed special
 // results; NativeStage::find says the same of them.
 void scan_ordinary(const ScanInput& in, std::uint8_t* verdicts);
+void scan_ordinary(const WideScanInput& in, std::uint8_t* verdicts);
 
 // The same for each instruction set that this processor has, the fastest last.  They may leave different
 // numbers of samples at the end of a batch unsettled, for the caller to look at one by one.
 using OrdinaryScan = void (*)(const ScanInput& in, std::uint8_t* verdicts);
 [[nodiscard]] std::vector<OrdinaryScan> ordinary_scans();
+using WideScan = void (*)(const WideScanInput& in, std::uint8_t* verdicts);
+[[nodiscard]] std::vector<WideScan> wide_scans();
 
 }  // namespace ulpgate

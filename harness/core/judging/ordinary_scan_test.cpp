@@ -1,4 +1,4 @@
-// Tests of the scan: what it settles, NativeStage settles too, and both count it alike.
+// Tests of the scans: what they settle, NativeStage settles too, and both count it alike.
 // Tests of the tally: large errors, when it asks for a condition number, and what stages may say to it.
 #include "harness/core/judging/ordinary_scan.hpp"
 
@@ -33,16 +33,33 @@ std::vector<float> many_floats() {
   return list;
 }
 
-void count_one_by_one(const NativeStage<float, double, Stage::binary64>& stage,
-                      const std::vector<float>& args, const std::vector<float>& results,
-                      const std::vector<std::uint8_t>& verdicts, RowTally<float>& tally) {
-  for (std::size_t i = 0; i < args.size(); ++i) {
+template <class Native, class Real>
+void count_one_by_one(const Native& stage, const std::vector<Real>& args, const std::vector<Real>& results,
+                      const std::vector<std::uint8_t>& verdicts, RowTally<Real>& tally,
+                      std::uint64_t first = 0) {
+  const std::size_t arity = args.size() / results.size();
+  for (std::size_t i = 0; i < results.size(); ++i) {
     if (verdicts[i] == verdict::unsettled) continue;
     Finding finding;
-    ASSERT_TRUE(stage.find(i, &args[i], results[i], finding)) << args[i];
+    const Real* point = &args[i * arity];
+    ASSERT_TRUE(stage.find(i, point, results[i], finding)) << *point;
     const long double value = stage.value(i);
-    ASSERT_TRUE(tally.settle({&finding, 1}, i, &args[i], {&value, 1})) << args[i];
+    ASSERT_TRUE(tally.settle({&finding, 1}, first + i, point, {&value, 1})) << *point;
   }
+}
+
+// Bit patterns of every kind, and what functions are mostly asked for.
+std::vector<double> many_doubles(std::size_t count) {
+  std::mt19937_64 words(11);
+  std::vector<double> list;
+  list.reserve(count);
+  while (list.size() < count) {
+    list.push_back(std::bit_cast<double>(words()));
+    const double small = static_cast<double>(words() >> 11U) * 0x1p-53;
+    for (const double x : {small, 200 * small - 100, std::floor(64 * small), 1 + std::ldexp(small, -40)})
+      if (list.size() < count) list.push_back(x);
+  }
+  return list;
 }
 
 TEST(OrdinaryScan, SettlesNothingThatTheStageWouldNotAndCountsItAlike) {
@@ -74,6 +91,50 @@ TEST(OrdinaryScan, SettlesNothingThatTheStageWouldNotAndCountsItAlike) {
       }
     }
   }
+}
+
+TEST(WideScan, SettlesNothingThatTheStageWouldNotAndCountsItAlike) {
+  const FunctionTable<double>& functions = function_table<double>();
+  int scanned = 0;
+  for (const FunctionInfo& f : all_functions()) {
+    const ScreenStages stages = screen_stages(f);
+    if (stages.double_double == nullptr) continue;
+    ++scanned;
+    constexpr std::size_t count = 20000;
+    const std::vector<double> args = many_doubles(count * static_cast<std::size_t>(f.arity));
+    std::vector<double> results(count);
+    std::vector<std::uint8_t> threw(count);
+    functions[static_cast<std::size_t>(f.id)](args.data(), results.data(), threw.data(), count);
+    // Wrong results of every size, zeros, infinities and NaN are settled alike, too.
+    for (std::size_t i = 0; i < count; i += 7) {
+      const double x = results[i];
+      const double wrong[] = {
+          std::nextafter(x, 9), std::nextafter(x, -9), -x, x * 3, 0, -0.0, 1 / 0.0, 0.0 / 0.0};
+      results[i] = wrong[i / 7 % 8];
+    }
+    NativeStage<double, DoubleDouble, Stage::double_double> stage(f.id, stages.double_double);
+    stage.load(args, count);
+    std::vector<std::vector<std::uint8_t>> all;
+    for (const WideScan scan : wide_scans()) {
+      const double largest = all.empty() ? 5.0 : 0.3;
+      std::vector<std::uint8_t> verdicts(count);
+      scan(stage.scan_input(args, results, 77, largest), verdicts.data());
+      RowHint hint(1);
+      hint.raise_max_error(0, {largest, 0});
+      RowTally<double> at_once(f, hint);
+      RowTally<double> one_by_one(f, hint);
+      at_once.count_scanned(verdicts, 77);
+      count_one_by_one(stage, args, results, verdicts, one_by_one, 77);
+      const Summary a = at_once.take()[0];
+      EXPECT_EQ(recorded_figures(a), recorded_figures(one_by_one.take()[0])) << f.name;
+      EXPECT_GT(static_cast<double>(a.samples), (largest > 1 ? 0.2 : 0.05) * count) << f.name;
+      scan(stage.scan_input(args, results, 77, 5.0), verdicts.data());
+      verdicts.resize(count - 8);
+      all.push_back(verdicts);
+      EXPECT_EQ(all.back(), all.front()) << f.name;
+    }
+  }
+  EXPECT_GE(scanned, 28);
 }
 
 TEST(OrdinaryScan, WritesTheSameVerdictsWithEveryInstructionSet) {

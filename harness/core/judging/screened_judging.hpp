@@ -77,7 +77,10 @@ class ScreenedJudging {
   [[nodiscard]] const std::array<std::uint64_t, stage_count>& decided() const { return decided_; }
 
  private:
-  using ScanningStage = NativeStage<float, double, Stage::binary64>;
+  // Stages that settle the ordinary samples of a whole batch many at a time, where they are the first.
+  template <class Native>
+  static constexpr bool scans = std::same_as<Native, NativeStage<float, double, Stage::binary64>> ||
+                                std::same_as<Native, NativeStage<double, DoubleDouble, Stage::double_double>>;
 
   // What a stage would have decided of a sample that goes to the full reference in any case.
   struct Check {
@@ -129,9 +132,15 @@ class ScreenedJudging {
 
   // Whether a whole batch is scanned first, which leaves in pending_ what is left over.
   [[nodiscard]] bool may_scan(const Batch<Real>& batch) const {
-    if constexpr (std::same_as<Real, float>)
-      return std::get<0>(natives_).exists() && batch.function.arity == 1;
-    return false;
+    bool is_first = true;
+    bool may = false;
+    const auto look = [&]<class Native>(const Native& native) {
+      if (!native.exists()) return;
+      may = may || (is_first && scans<Native> && (std::same_as<Real, double> || batch.function.arity == 1));
+      is_first = false;
+    };
+    std::apply([&](const auto&... natives) { (look(natives), ...); }, natives_);
+    return may;
   }
 
   template <class Native>
@@ -141,7 +150,7 @@ class ScreenedJudging {
     const bool whole = pending_.size() == batch.count();
     if (whole) {
       native.load(batch.args, batch.count());
-      if constexpr (std::same_as<Native, ScanningStage>) {
+      if constexpr (scans<Native>) {
         if (may_scan(batch)) settle_ordinary(native, batch, tally);
       }
     } else {
@@ -173,8 +182,9 @@ class ScreenedJudging {
     pending_.resize(left);
   }
 
-  // The ordinary ones of a whole batch of points of one argument, many at a time.
-  void settle_ordinary(const ScanningStage& native, const Batch<float>& batch, RowTally<float>& tally) {
+  // The ordinary ones of a whole batch, many at a time.
+  template <class Native>
+  void settle_ordinary(const Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
     verdicts_.resize(batch.count());
     scan_ordinary(native.scan_input(batch.args, batch.results, batch.first_index, tally.largest_error()),
                   verdicts_.data());
@@ -208,7 +218,7 @@ class ScreenedJudging {
     }
     look(batch.count());
     pending_.resize(left);
-    decided_[static_cast<std::size_t>(Stage::binary64)] += batch.count() - left;
+    decided_[static_cast<std::size_t>(Native::id)] += batch.count() - left;
   }
 
   // True where the sample is done with.
