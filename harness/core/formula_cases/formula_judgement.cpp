@@ -73,7 +73,7 @@ std::string wrong_result(const FormulaNumbers& value, const FormulaNumbers& trut
       worst = i;
     }
   }
-  const auto text = [](const FormulaNumber& x) { return x.str(8, std::ios_base::scientific); };
+  const auto text = [](const FormulaNumber& x) { return x.str(8); };
   return (truth.size() > 1 ? "component " + std::to_string(worst + 1) + " is " : "the result is ") +
          text(value[worst]) + ", true is " + text(truth[worst]);
 }

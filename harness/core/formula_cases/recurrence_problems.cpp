@@ -78,7 +78,7 @@ std::vector<FormulaProblem> recurrence_problems() {
        .truth = [](const FormulaInput& in) { return in.x; },
        .forms = {{"naive",
                   {{"all", StressVerdict::unstable,
-                    "of the method: a root so near to 1 keeps 58 bits fewer than the type has"}}},
+                    "of the method: a root so near to 1 costs 58 of the bits there are"}}},
                  {"logarithm",
                   {{"cpp_bin_float62", StressVerdict::unstable,
                     "of the type's library: Boost 1.81's log of cpp_bin_float is off by 6 ULP at 100, and "

@@ -1,4 +1,6 @@
 // Single contacts: restitution by the steps in a collision, Hertz at a mass ratio of 1e12, grazing impacts.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -51,7 +53,7 @@ SceneCase head_on(int ratio, const std::string& en) {
     row.figures["restitution_without_tension"] = truth;
     row.figures["restitution_with_tension"] = en;
     return std::fabs(measured(t.reference)) > 1 + 1e-9
-               ? "the collision creates energy: restitution " + std::to_string(measured(t.reference))
+               ? fmt::format("the collision creates energy: restitution {:.3g}", measured(t.reference))
                : "";
   };
   return c;
@@ -102,8 +104,7 @@ SceneCase grazing(const std::string& law, const std::string& form, const std::st
     row.figures["kinetic_energy_over_start_reference"] = ratio;
     if (!t.own.contacts().empty()) return "still in contact";
     // The leapfrog's own energy error is of the second order: 1e-4 is far above it here.
-    return ratio > 1 + 1e-4 ? "the impact creates energy: " + std::to_string(ratio) + " of that before it"
-                            : "";
+    return ratio > 1 + 1e-4 ? fmt::format("the impact creates energy: {:.3g} of that before it", ratio) : "";
   };
   return c;
 }
@@ -139,7 +140,7 @@ SceneCase packed(int ratio) {
   c.outcome = [](const SceneTrial& t, StressRow& row) -> std::string {
     const double ratio = t.reference.kinetic_energy() / t.kinetic_start;
     row.figures["kinetic_energy_over_start_reference"] = ratio;
-    return ratio > 1 ? "the ball has " + std::to_string(ratio) + " times the energy that it was given" : "";
+    return ratio > 1 ? fmt::format("the ball has {:.3g} times the energy that it was given", ratio) : "";
   };
   return c;
 }
@@ -164,7 +165,7 @@ SceneCase accounted(const std::string& law, const std::string& young) {
     row.figures["sum_over_start_minus_1"] = drift;
     row.figures["friction_over_start"] = t.reference.energy("friction") / t.kinetic_start;
     // The ratchet-free velocity that shear springs see differs from the true one by overlap/radius.
-    return std::fabs(drift) < 2e-3 ? "" : "the account is off by " + std::to_string(drift) + " of the energy";
+    return std::fabs(drift) < 2e-3 ? "" : fmt::format("the account is off by {:.3g} of the energy", drift);
   };
   return c;
 }

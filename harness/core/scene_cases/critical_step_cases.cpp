@@ -1,4 +1,6 @@
 // Critical steps of small networks in many orientations.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -104,11 +106,11 @@ StressRow run_network(const NetworkCase& c, std::string_view token, const ode::S
   row.correct_digits = *row.error > 0 ? std::clamp(-std::log10(*row.error), 0.0, 15.0) : 15.0;
   if (worst > 1) {
     row.verdict = StressVerdict::wrong_outcome;
-    row.why = "the step is " + std::to_string(worst) + " times the largest stable one";
+    row.why = fmt::format("the step is {:.3g} times the largest stable one", worst);
   } else if (row.verdict == StressVerdict::unstable) {
     row.verdict = StressVerdict::wrong_outcome;
-    row.why = "the step changes by a factor of " + std::to_string(most / least) +
-              " with the orientation or the place";
+    row.why =
+        fmt::format("the step changes by {:.2g} of itself with the orientation or the place", *row.error);
   }
   return row;
 }

@@ -1,5 +1,7 @@
 // Scenes far from the origin, with sizes, masses, spins and overlaps at the ends, and bodies that stand
 // still.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -71,7 +73,7 @@ SceneCase far_away(const std::string& at) {
     const double apart =
         t.own.approximate(BodyQuantity::velocity, 1, 0) - t.own.approximate(BodyQuantity::velocity, 0, 0);
     row.figures["restitution"] = apart / 2;
-    return std::fabs(apart / 2 - 1) < 0.1 ? "" : "restitution " + std::to_string(apart / 2) + " instead of 1";
+    return std::fabs(apart / 2 - 1) < 0.1 ? "" : fmt::format("restitution {:.3g} instead of 1", apart / 2);
   };
   return c;
 }
@@ -94,7 +96,7 @@ SceneCase standing_still(const std::string& dt) {
     row.figures["way_over_true_way"] = ratio;
     // The clock is the count of steps times dt: it does not stop.
     row.figures["clock_over_true_clock"] = t.own.time_s() / (500 * t.dt_s);
-    return std::fabs(ratio - 1) < 0.01 ? "" : "the body goes " + std::to_string(ratio) + " of its way";
+    return std::fabs(ratio - 1) < 0.01 ? "" : fmt::format("the body goes {:.3g} of its way", ratio);
   };
   return c;
 }
@@ -117,7 +119,7 @@ SceneCase resting(const std::string& wall) {
     row.figures["depth_over_depth_of_rest"] = depth / rest;
     return std::fabs(depth / rest - 1) < 0.5
                ? ""
-               : "the ball is " + std::to_string(depth / rest) + " times as deep as it rests";
+               : fmt::format("the ball is {:.3g} times as deep as it rests", depth / rest);
   };
   return c;
 }
@@ -169,8 +171,8 @@ void add_overlaps(std::vector<SceneCase>& list) {
     row.figures["kinetic_over_stored"] = t.reference.kinetic_energy() / stored;
     return std::fabs(t.reference.kinetic_energy() / stored - 1) < 0.01
                ? ""
-               : "kinetic energy " + std::to_string(t.reference.kinetic_energy() / stored) +
-                     " of what was stored";
+               : fmt::format("kinetic energy {:.3g} of what was stored",
+                             t.reference.kinetic_energy() / stored);
   };
   list.push_back(c);
 }
@@ -243,8 +245,8 @@ void add_spins(std::vector<SceneCase>& list) {
       const double truth = std::tan(20 * std::acos(-1.0) / 180) * 9.81e-3;
       row.figures["slowed_over_truth"] = slowed / truth;
       if (std::fabs(aside) > 0.1 * truth || std::fabs(slowed / truth - 1) > 0.1)
-        return "slowed by " + std::to_string(slowed / truth) + " and turned aside by " +
-               std::to_string(aside / truth) + " of mu g t";
+        return fmt::format("slowed by {:.3g} and turned aside by {:.3g} of mu g t", slowed / truth,
+                           aside / truth);
       return "";
     };
     list.push_back(c);
@@ -335,8 +337,8 @@ void add_shared_edges(std::vector<SceneCase>& list) {
       const double ratio = (way - 1e-3) / (truth - 1e-3);
       const double aside = std::fabs(t.reference.approximate(BodyQuantity::velocity, 0, 0));
       if (std::fabs(ratio - 1) < 0.01 && aside < 1e-6) return "";
-      return "rises " + std::to_string(ratio) + " of the height of a plane's bounce, aside with " +
-             std::to_string(aside) + " m/s";
+      return fmt::format("rises {:.3g} of the height of a plane's bounce, aside with {:.3g} m/s", ratio,
+                         aside);
     };
     list.push_back(c);
   }

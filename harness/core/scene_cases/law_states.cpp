@@ -1,4 +1,6 @@
 // Contact laws on the cone, at no overlap, under tension; shear that is carried on.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "harness/core/scene_cases/case_tables.hpp"
@@ -155,9 +157,9 @@ std::string keeps_length(const KernelPoint& p) {
   const double growth = static_cast<double>(WideReal(sqrt(WideReal(after / before))));
   const double tilt = static_cast<double>(WideReal(along / sqrt(before)));
   if (std::fabs(growth - 1) > 0.01)
-    return "the shear force becomes " + std::to_string(growth) + " times as long";
+    return fmt::format("the shear force becomes {:.3g} times as long", growth);
   if (std::fabs(tilt) > 0.01)
-    return "a part " + std::to_string(tilt) + " of the shear force lies along the normal";
+    return fmt::format("a part {:.3g} of the shear force lies along the normal", tilt);
   return "";
 }
 

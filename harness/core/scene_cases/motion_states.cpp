@@ -1,5 +1,7 @@
 // Velocities at the ends of the type, impulses below an ulp, a million turns a step; facets beside each
 // other.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -131,9 +133,10 @@ void add_integration(std::vector<KernelStateCase>& list) {
                   .truth = {{0, {"0.8*sqrt(2/1e5)"}}},
                   .outcome = [](const KernelPoint& p) -> std::string {
                     const double ratio = p.of(0, 0) / (0.8 * std::sqrt(2 / 1e5));
-                    return std::fabs(ratio - 1) < 0.01 ? ""
-                                                       : "the step is " + std::to_string(ratio) +
-                                                             " times that of the same contact along x";
+                    return std::fabs(ratio - 1) < 0.01
+                               ? ""
+                               : fmt::format("the step is {:.3g} times that of the same contact along x",
+                                             ratio);
                   },
                   .known = {{"all", StressVerdict::wrong_outcome,
                              "The rule looks along the axes alone, a property of the method; the engine's "

@@ -72,7 +72,7 @@ CHAPTERS = (
     Chapter(
         "stress",
         "Stiff and extreme cases",
-        "Each case has a verdict in each type.",
+        "Each case has a verdict in each type that it can be put to.",
         ("stress_counts", "stress_findings"),
         ("stability",),
     ),

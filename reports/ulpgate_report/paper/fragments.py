@@ -10,7 +10,6 @@ _MM_PER_INCH = 25.4
 _LONGEST_WORD = 30
 _LANDSCAPE = r"\begin{landscape}"
 # What is set as mathematics in a caption: 2^-p, 1e6 beside a unit stays as it is typed in commands.
-_POWER = re.compile(r"\b(\w+)\^(-?\w+|-?\([\w-]+\))")
 
 _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
@@ -53,21 +52,9 @@ def caption(said):
     """A caption whose text between backquotes is a command."""
     parts = said.split("`")
     return "".join(
-        tex_command(part) if place % 2 else _prose(part)
+        tex_command(part) if place % 2 else table_latex.prose(part)
         for place, part in enumerate(parts)
     )
-
-
-def _prose(text):
-    """Text with its powers raised and t_s as the symbol it is."""
-    lines, last = [], 0
-    for found in re.finditer(rf"{_POWER.pattern}|\bt_s\b", text):
-        lines.append(table_latex.escape(text[last : found.start()]))
-        base, exponent = found.group(1, 2)
-        symbol = "t_s" if base is None else f"\\mathrm{{{base}}}^{{{exponent}}}"
-        lines.append(f"${symbol}$")
-        last = found.end()
-    return "".join([*lines, table_latex.escape(text[last:])])
 
 
 def table(found):

@@ -23,7 +23,7 @@ def _column_mm(column, cells):
         # A power of ten is set out: 1.2 x 10^-5.
         longer = 4 * ("e" in shown and column.kind in cell_text.NUMERIC_KINDS)
         texts.append(shown + mark + " " * longer)
-    each = 1.32 if column.kind in cell_text.CODE_KINDS else 1.2
+    each = 1.38 if column.kind in cell_text.CODE_KINDS else 1.2
     return max(map(len, texts)) * each
 
 

@@ -117,12 +117,20 @@ def test_findings_put_new_ones_first_and_types_together():
     rows[-1]["expected"] = "unstable"
     first, second, third = csv_rows(tables.stress_findings(stress_of(*rows)))
     assert (first["standing"], first["verdict"]) == ("new", "diverged")
-    assert first["cause"] == "not finite at step 3" and first["expected"] == "unstable"
+    assert first["cause"] == "Not finite at step 3." and first["expected"] == "unstable"
     assert second["verdict"] == "stable", "better than known is a finding too"
-    assert (third["types"], third["cause"]) == ("float, double", "cancellation")
+    assert (third["types"], third["cause"]) == ("float, double", "Cancellation.")
     assert third["reproducer"].startswith("ulpgate stress --cases formula/sum/naive")
     good = stress_of(one(verdict="stable", as_known=True))
     assert tables.stress_findings(good).rows == ()
+
+
+def test_causes_are_sentences():
+    row = one("float", verdict="wrong_outcome", as_known=True)
+    row.update(cause="A property of the method.", why="it slides", first_wrong="step 3")
+    (found,) = csv_rows(tables.stress_findings(stress_of(row)))
+    told = "A property of the method. It slides. First wrong: step 3."
+    assert found["cause"] == told
 
 
 def test_null_and_infinite_values(run_directory):

@@ -82,7 +82,9 @@ def stress_counts(stress):
     )
     caption = (
         "Cases of each kind by type and verdict. Unstable: the error of rounding is above 16 times condition times "
-        "roundoff; ill-conditioned: below it, but the condition costs more than half of the digits."
+        "roundoff; ill-conditioned: below it, but the condition costs more than half of the digits; wrong outcome: another "
+        "contact, sign, branch or count than the truth has, or a law broken; diverged: not finite, or far beyond what is conserved; refused: an error that says "
+        "why. A case whose numbers a type does not have, or that is made for other types, is not there."
     )
     return Table("stress_counts", caption, columns, tuple(rows))
 
@@ -95,8 +97,10 @@ def _types(rows, of_type):
 
 
 def _reason(cause, row):
+    """Sentences: why it is known to be, what was found, and where it goes wrong first."""
     wrong = row["first_wrong"] and f"first wrong: {row['first_wrong']}"
-    return "; ".join(filter(None, (cause, row["why"], wrong))) or None
+    parts = [p.rstrip(". ") for p in (cause, row["why"], wrong) if p]
+    return " ".join(p[0].upper() + p[1:] + "." for p in parts) or None
 
 
 def stress_findings(stress):
@@ -133,8 +137,8 @@ def stress_findings(stress):
         Column("reproducer", "command", "command"),
     )
     caption = (
-        "What to look at: cases that are neither stable nor ill-conditioned, or that are and were known not to be. The new "
-        "ones come first, then those whose cause is known; reason, place and command are of the first type."
+        "Every case whose verdict is neither stable nor ill-conditioned, or is not the known one. The new "
+        "ones come first, then those whose cause is known; numbers, first wrong place and command are of the first type named."
     )
     return Table("stress_findings", caption, columns, tuple(rows))
 

@@ -20,3 +20,11 @@ def test_names_are_escaped(text, latex, markdown, why):
     table = Table("t", "c", (Column("f", "f", "code"),), ((text,),))
     assert table_latex.escape(text) == latex, why
     assert f"| {markdown} |" in table_markdown.render(table), why
+
+
+def test_prose_has_its_powers_raised_and_its_rows_apart():
+    columns = (Column("why", "why", "prose"),)
+    rows = (("a root of 2^-24 and t^2",), ("x",), ("y",))
+    found = table_latex.render(Table("t", "c", columns, rows)).splitlines()
+    assert r"a root of $\mathrm{2}^{-24}$ and $\mathrm{t}^{2}$ \\*[2pt]" in found
+    assert found[found.index(r"x \\*[2pt]") + 1] == r"y \\*", "none after the last"

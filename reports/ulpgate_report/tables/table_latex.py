@@ -1,4 +1,6 @@
 """Writes a table as a LaTeX longtable (booktabs, siunitx), and a document that shows all of them."""
+import re
+
 from ulpgate_report.tables import cell_text
 from ulpgate_report.tables.table import Table
 
@@ -9,6 +11,9 @@ COLUMNS_OF_COMMANDS = 10
 MANY_COLUMNS = 8
 _ROWS_TOGETHER = 3
 PROSE_MM, SHARED_PROSE_MM = 70, 80
+# Rows of several lines each are told apart.
+_BETWEEN_PROSE = "[2pt]"
+_POWER = re.compile(r"\b(\w+)\^(-?\w+|-?\([\w-]+\))")
 _SPECIAL = {
     "\\": r"\textbackslash{}",
     "~": r"\textasciitilde{}",
@@ -47,6 +52,18 @@ def escape_code(text):
     return plain.replace(r"\_", r"\char95{}")
 
 
+def prose(text):
+    """The same with its powers raised and t_s as the symbol it is."""
+    parts, last = [], 0
+    for found in re.finditer(rf"{_POWER.pattern}|\bt_s\b", text):
+        parts.append(escape(text[last : found.start()]))
+        base, exponent = found.group(1, 2)
+        symbol = "t_s" if base is None else f"\\mathrm{{{base}}}^{{{exponent}}}"
+        parts.append(f"${symbol}$")
+        last = found.end()
+    return "".join([*parts, escape(text[last:])])
+
+
 def _number(text):
     if text in ("inf", "-inf"):
         return r"$-\infty$" if text[0] == "-" else r"$\infty$"
@@ -60,6 +77,8 @@ def _text(cell, kind):
         shown = "--" if value is None else _number(shown)
     elif kind in cell_text.CODE_KINDS:
         shown = rf"\texttt{{{escape_code(shown)}}}"
+    elif kind == "prose":
+        shown = prose(shown)
     else:
         shown = escape(shown)
     # Not raised: beside a power of ten it would be one more exponent.
@@ -155,7 +174,9 @@ def render(table, prose_mm=None):
         # No page begins or ends with one or two rows of a table.
         together = place < _ROWS_TOGETHER or last - _ROWS_TOGETHER < place < last
         lines.append(
-            " & ".join(map(_text, row, kinds)) + (r" \\*" if together else r" \\")
+            " & ".join(map(_text, row, kinds))
+            + (r" \\*" if together else r" \\")
+            + (_BETWEEN_PROSE if "prose" in kinds and place < last else "")
         )
     return "\n".join([*lines, r"\end{longtable}}", ""])
 

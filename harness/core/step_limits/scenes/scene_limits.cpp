@@ -94,7 +94,7 @@ StressRow rule_row(std::string_view token, const LimitScene& s, const std::strin
   row.figures["rule_over_limit"] = step / limit;
   row.figures["block_bound_over_limit"] = block_bound_step(looked->network) / limit;
   row.verdict = step <= limit ? StressVerdict::stable : StressVerdict::wrong_outcome;
-  row.why = fmt::format("the rule's step is {:.4g} of the largest stable one", step / limit);
+  row.why = fmt::format("the rule's step is {:.4g} times the largest stable one", step / limit);
   return row;
 }
 
@@ -135,10 +135,10 @@ StressCase rule_case(const std::string& rule, const MakeScene& make) {
   c.cost = 0.05;
   const bool waves_say_nothing = rule != "stiffness" && c.form == "boxed";
   if (rule == "rayleigh" && c.form != "hertz_on_wall" && !waves_say_nothing) {
-    c.known.push_back(
-        {"all", StressVerdict::wrong_outcome,
-         "a property of the method: it is the time of a surface wave over a body, and linear contacts of "
-         "kn = E r, let alone stiffer ones, vibrate faster"});
+    c.known.push_back({"all", StressVerdict::wrong_outcome,
+                       "A property of the method: Rayleigh's rule is the time of a surface wave over a body; "
+                       "linear contacts of "
+                       "kn = E r, let alone stiffer ones, vibrate faster"});
   }
   if (waves_say_nothing) {
     c.known.push_back(
