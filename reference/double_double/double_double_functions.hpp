@@ -1,7 +1,6 @@
 // Functions in double-double as references of binary64 and x87 numbers.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
 #include "reference/double_double/double_double.hpp"
@@ -23,14 +22,11 @@ using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* re
 [[nodiscard]] DoubleDoubleFunction double_double_function(FunctionId id);
 
 // Whether all of it is had at less than the x87 function: then that has no stage before it.  Measured by
-// engine_benchmark, a whole sample with the scan of ordinary ones: pow takes 390 ns in x87 and 100 here,
-// hypot 148 with x87 first and 70 without, sqrt 60 and 34, cbrt 164 and 92, erf 93 and 78, tanh 110 and 100;
-// log 100 and 167, exp 102 and 126, asin 205 and 306.
+// engine_benchmark with AVX-512, a whole sample with the scan of ordinary ones, x87 first and without: exp
+// 102 and 44 ns, log 99 and 67, sin 184 and 67, pow 320 and 115, tgamma 680 and 560, asin 193 and 128.  Where
+// erfc underflows, x87 tells its size, which no double-double has.
 [[nodiscard]] constexpr bool is_cheaper_than_x87(FunctionId id) {
-  constexpr FunctionId cheaper[] = {FunctionId::sqrt, FunctionId::cbrt,  FunctionId::hypot, FunctionId::sin,
-                                    FunctionId::cos,  FunctionId::tan,   FunctionId::tanh,  FunctionId::pow,
-                                    FunctionId::erf,  FunctionId::tgamma};
-  return std::ranges::find(cheaper, id) != std::ranges::end(cheaper);
+  return id != FunctionId::erfc;
 }
 
 // Of each instruction set that this processor has, the slowest first; for tests.
