@@ -15,10 +15,8 @@ COLUMN_INCHES = 0.56
 LABEL_INCHES = 1.25
 # More rows than these go to a second block beside the first.
 ROWS_OF_ONE_BLOCK = 30
-# The least that a cell and a row take; text is that much smaller.
-LEAST_CELL_INCHES, LOW_ROW_INCHES = 0.33, 0.125
-# A number of so many signs is set smaller.
-_LONG_NUMBER = 7
+# The least that a cell and a row take.
+LEAST_CELL_INCHES, LOW_ROW_INCHES = 0.33, 0.098
 # More rows than these in one block are low ones.
 MOST_FULL_ROWS = 46
 
@@ -79,7 +77,7 @@ def _draw_mismatch(axes, x, y):
     )
 
 
-def _draw_cell(axes, x, y, cell, scale, size=6):
+def _draw_cell(axes, x, y, cell, scale):
     value, marked = cell or (None, False)
     if value is None:
         axes.text(x + 0.5, y + 0.5, "-", ha="center", va="center", color="0.5", size=6)
@@ -96,16 +94,17 @@ def _draw_cell(axes, x, y, cell, scale, size=6):
                 linewidth=0.4,
             )
         )
-        shown = numbers.short_ulp(value)
+        shown = numbers.cell_of_map(value)
         # The hatch of an infinite error would run through its text.
         box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
         axes.text(
-            x + 0.5,
+            # Beside the mark there is less room.
+            x + (0.43 if marked else 0.5),
             y + 0.53,
             shown,
             ha="center",
             va="center",
-            size=size if len(shown) < _LONG_NUMBER else size - 0.8,
+            size=6,
             color=scale.foreground(value),
             bbox=box if infinite else None,
         )
@@ -113,13 +112,13 @@ def _draw_cell(axes, x, y, cell, scale, size=6):
         _draw_mismatch(axes, x, y)
 
 
-def _draw_block(axes, rows, grid, size):
+def _draw_block(axes, rows, grid):
     tokens = grid.columns
     axes.set_xlim(0, len(tokens))
     axes.set_ylim(len(rows), 0)
     for y, row in enumerate(rows):
         for x, token in enumerate(tokens):
-            _draw_cell(axes, x, y, grid.cell_of(row, token), grid.scale, size)
+            _draw_cell(axes, x, y, grid.cell_of(row, token), grid.scale)
         if y and grid.group_of(row) != grid.group_of(rows[y - 1]):
             axes.axhline(y, color="black", linewidth=0.8, zorder=4)
     axes.set_yticks(
@@ -133,6 +132,14 @@ def _draw_block(axes, rows, grid, size):
     axes.tick_params(length=0, pad=2)
     for spine in axes.spines.values():
         spine.set_visible(False)
+
+
+def _signs(grid):
+    """What the signs mean that occur beside numbers."""
+    cells = [grid.cell_of(row, column) for row in grid.rows for column in grid.columns]
+    values = [cell and cell[0] for cell in cells]
+    signs = {"- nothing judged": None, "hatched: infinite error": numbers.INFINITE}
+    return "; ".join(told for told, value in signs.items() if value in values)
 
 
 def _draw_legend(figure, grid, left, bottom, width):
@@ -165,9 +172,7 @@ def _draw_legend(figure, grid, left, bottom, width):
     key.axis("off")
     _draw_mismatch(key, -0.8, 0.15)
     key.text(0.3, 0.5, grid.mark_text, size=6.5, va="center")
-    key.text(
-        0.3, 1.5, "- nothing judged; hatched: infinite error", size=6.5, va="center"
-    )
+    key.text(0.3, 1.5, _signs(grid), size=6.5, va="center")
 
 
 def draw(grid):
@@ -195,7 +200,7 @@ def draw(grid):
                 inches / total_height,
             ]
         )
-        _draw_block(axes, rows, grid, 6 if cell > 0.4 else 5.2)
+        _draw_block(axes, rows, grid)
     _draw_legend(
         figure,
         grid,

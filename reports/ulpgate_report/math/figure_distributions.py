@@ -3,7 +3,7 @@ import math
 
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator
 
 from ulpgate_report.figures import figure_style
 from ulpgate_report.math.combine import BUCKETS_PER_OCTAVE
@@ -71,10 +71,12 @@ def _draw_panel(axes, row, combined):
             )
     axes.set_yscale("log")
     axes.set_ylim(lowest_share / 2, 2)
+    axes.yaxis.set_major_locator(LogLocator(numticks=5))
+    axes.yaxis.set_major_formatter(lambda share, _: f"{math.log10(share):.0f}")
     axes.set_xlim(LOWEST_LOG2_ULP - 1, highest + 0.5)
-    axes.xaxis.set_major_locator(MaxNLocator(4, integer=True))
+    axes.xaxis.set_major_locator(MaxNLocator(3, integer=True))
     axes.axvline(-1, color="0.7", linewidth=0.6, linestyle=":", zorder=0)
-    axes.tick_params(labelsize=5.5, length=2, pad=1.5)
+    axes.tick_params(labelsize=6.5, length=2, pad=1.5)
     axes.tick_params(which="minor", length=0)
     axes.set_title(row.label, size=7, pad=2)
 
@@ -101,7 +103,9 @@ def _draw_class(combined, kind):
     columns = min(3 if figure_style.is_one_column() else COLUMNS, len(rows))
     lines = math.ceil(len(rows) / columns)
     width, height = PANEL_INCHES
-    width = figure_style.width(columns * width + 0.5) / columns - 0.5 / columns
+    # Labels stand outside: what is wider than the page would be printed smaller.
+    inches = min(columns * width + 0.5, figure_style.PAGE_INCHES - 0.45)
+    width = (figure_style.width(inches) - 0.5) / columns
     figure, grid = pyplot.subplots(
         lines,
         columns,
@@ -121,7 +125,7 @@ def _draw_class(combined, kind):
     figure.text(
         -0.36 / figure.get_figwidth(),
         0.5,
-        "share of judged samples",
+        "log10(share of judged samples)",
         va="center",
         ha="right",
         rotation=90,
@@ -142,7 +146,7 @@ def _draw_class(combined, kind):
         handles=handles,
         loc="lower center",
         bbox_to_anchor=(0.5, 1 + 0.2 / inches),
-        ncol=figure_style.legend_columns(min(len(handles), columns + 1)),
+        ncol=figure_style.legend_columns(min(len(handles), columns + 2)),
         columnspacing=1.0,
     )
     return name, _caption(kind), figure

@@ -58,11 +58,13 @@ def scene_table(scenes):
             max_energy_error_J="energy error (J)",
         ),
     )
-    caption = (
-        "Scenes at their end: kinetic energy of the velocities half a step before, mean position of the bodies, and the largest distance of the energy "
-        "account from its value at the start (- where no account was kept)."
-    )
-    return Table("scene_table", caption, columns, tuple(rows))
+    caption = "Scenes at their end: kinetic energy of the velocities half a step before, and mean position of the bodies"
+    if any(row[-1] is not None for row in rows):
+        caption += (
+            "; the largest distance of the energy account from its value at the start (- where no "
+            "account was kept)"
+        )
+    return Table("scene_table", caption + ".", columns, tuple(rows))
 
 
 def scene_states(scenes):
@@ -189,13 +191,13 @@ def benchmark_table(scenes):
         _TYPE,
         *columns_of("count", threads="threads", steps="steps"),
         Column("kept", "repeats kept", "text"),
-        *columns_of("real", iterations_per_s="iterations/s", deviation="deviation"),
+        *columns_of("rough", iterations_per_s="iterations/s", deviation="deviation"),
         Column("memory_bytes", "memory (bytes)", "count"),
         *columns_of(
-            "real",
+            "rough",
             slowdown="slowdown",
-            slowdown_deviation="deviation",
-            paper_slowdown="slowdown, paper",
+            slowdown_deviation="deviation of the slowdown",
+            paper_slowdown="published slowdown",
         ),
     )
     caption = (

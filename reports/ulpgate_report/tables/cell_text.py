@@ -6,8 +6,9 @@ _SHORT = {
     "ulp": numbers.short_ulp,
     "distance": numbers.short_distance,
     "real": numbers.short_real,
+    "rough": numbers.rough,
 }
-NUMERIC_KINDS = ("count", "ulp", "distance", "real")
+NUMERIC_KINDS = ("count", "ulp", "distance", "real", "rough")
 CODE_KINDS = ("code", "arguments", "command")
 # Beyond this a command is cut where its whole length has no place.
 COMMAND_LENGTH = 64

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Column:
-    """A column; `kind` is one of text, code, count, ulp, distance, real, arguments, command, prose."""
+    """A column; `kind` is one of text, code, count, ulp, distance, real, rough (a time and the like), arguments, command, prose."""
 
     name: str
     title: str

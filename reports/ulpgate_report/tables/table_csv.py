@@ -21,7 +21,7 @@ def _plain(value, kind):
         return ""
     if kind == "arguments":
         return " ".join(value)
-    if kind in ("ulp", "distance", "real"):
+    if kind in ("ulp", "distance", "real", "rough"):
         return numbers.exact_text(value)
     return str(value)
 

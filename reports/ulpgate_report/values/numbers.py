@@ -98,6 +98,22 @@ def short_real(value):
     return f"{mantissa}e{int(exponent)}"
 
 
+def rough(value):
+    """A number that another run would not give: three digits."""
+    if value is None or not math.isfinite(value):
+        return short_real(value)
+    if 1e-4 <= abs(value) < 1e6:
+        return short_real(float(f"{value:.3g}"))
+    return _scientific(value, 3) if value else "0"
+
+
+def cell_of_map(value):
+    """An error in ULP as short as in a cell of a heat map: of large and tiny ones a digit or two."""
+    if value is None or value in (0, INFINITE) or 0.001 <= value < 9999.5:
+        return short_ulp(value)
+    return _scientific(value, 2 if 1 < value < 1e5 else 1)
+
+
 def short_hexfloat(text, digits):
     """A hexfloat with its mantissa cut to `digits` characters after the prefix, `...` where it was cut."""
     found = _HEXFLOAT.match(text)

@@ -71,3 +71,13 @@ def test_short_hexfloat(text, digits, expected, why):
 )
 def test_larger(left, right, expected, why):
     assert numbers.larger(left, right) is expected, why
+
+
+def test_rough_numbers_and_cells_of_maps_have_few_digits():
+    rough = [437.784, 0.0754189, 8734.22, 1.5e7, 3.0, 0, None]
+    told = ["438", "0.0754", "8730", "1.50e7", "3", "0", "-"]
+    assert [numbers.rough(x) for x in rough] == told
+    cells = [0.5, 9411, 11234.0, 5.42e126, 4.12e-8, numbers.INFINITE, 0, None]
+    short = ["0.500", "9411", "1.1e4", "5e126", "4e-8", "inf", "0", "-"]
+    assert [numbers.cell_of_map(x) for x in cells] == short
+    assert numbers.cell_of_map(42 * 10**400) == "4e401"
