@@ -115,7 +115,9 @@ def build(
         found["scenes"] = list(scenes.records)
     if pendulum:
         found["correlations"] = list(pendulum.correlations)
-        found["orders"] = [_order(c) for c in orders.convergences(pendulum.orders)]
+        found["orders"] = [
+            _order(c) for c in orders.convergences(pendulum.orders, pendulum.bits)
+        ]
     if stress:
         found["stress"] = list(stress.rows)
     if work_precision:

@@ -1,5 +1,5 @@
 """The tables of the integrators' orders as plain data."""
-from ulpgate_report.integrators import orders
+from ulpgate_report.integrators import orders, wording
 from ulpgate_report.tables.table import Column, Table, columns_of
 from ulpgate_report.values import numbers
 
@@ -9,47 +9,63 @@ _TYPE = Column("type", "type", "code")
 _ORDER = Column("order", "order", "real")
 
 
+class _Hundredths(float):
+    """A number that every format shows with two decimals, as many as tell orders apart; it sorts as what it is."""
+
+    def __str__(self):
+        return f"{float(self):.2f}"
+
+
+def _order_row(one, bits):
+    unit = orders.unit_roundoff(one.type, bits)
+    reached, dt = one.smallest, one.smallest_dt
+    return [
+        one.problem,
+        one.integrator,
+        one.type,
+        one.order,
+        None if one.measured is None else _Hundredths(one.measured),
+        one.pairs or None,
+        reached,
+        None if None in (reached, unit) else float(f"{reached / unit:.3g}"),
+        None if dt is None else wording.power_of_two(dt),
+        "yes" if one.floor is not None else "no",
+    ]
+
+
 def order_table(pendulum):
     """The order of each integrator in theory and as measured, and how far down its error comes."""
-    bits, rows = pendulum.bits, []
-    for one in orders.convergences(pendulum.orders):
-        unit = orders.unit_roundoff(one.type, bits)
-        rows.append(
-            (
-                one.problem,
-                one.integrator,
-                one.type,
-                one.order,
-                None if one.measured is None else round(one.measured, 4),
-                one.points[-1][0] if one.points else None,
-                one.smallest,
-                None
-                if None in (one.smallest, unit)
-                else float(f"{one.smallest / unit:.3g}"),
-                "yes" if one.floor is not None else "no",
-            )
-        )
-    columns = (
+    bits = pendulum.bits
+    found = orders.convergences(pendulum.orders, bits)
+    columns = [
         _PROBLEM,
         _INTEGRATOR,
         _TYPE,
         _ORDER,
-        *columns_of(
-            "real",
-            measured_order="measured",
-            smallest_dt="smallest step",
-            smallest_error="smallest error",
-            smallest_error_u="in units u",
-        ),
+        # These two kinds show three digits and what a number says of itself.
+        Column("measured_order", "measured", "count"),
+        Column("measured_pairs", "pairs", "count"),
+        Column("smallest_error", "smallest error", "ulp"),
+        Column("smallest_error_u", "in units u", "ulp"),
+        Column("smallest_error_dt", "at the step", "code"),
         Column("floor", "floor reached", "text"),
-    )
+    ]
+    rows = [_order_row(one, bits) for one in found]
+    types, said = {one.type for one in found}, ""
+    # A column that says the same in every row is a word of the caption.
+    if len(types) == 1:
+        said = f" in {found[0].type}"
+        place = columns.index(_TYPE)
+        for line in (columns, *rows):
+            del line[place]
     caption = (
-        "Order of each integrator in theory and as measured on a problem with a known solution: the median over the four "
-        "smallest steps whose error is clear of the rounding floor. The smallest error is also given in units of the "
-        "roundoff u = 2^-p with p significand bits; the floor is reached where the last step lowers the error by less "
-        "than half the order."
+        f"Order of each integrator in theory and as measured{said} on a problem with a known solution: the median over "
+        f"at most {orders.POINTS} pairs of neighbouring steps, the smallest whose errors are clear of roundings, that is above "
+        f"{orders.CLEAR} u and {orders.CLEAR} times the floor; -: no such pair; one alone is of large steps, where the limit is not reached. {wording.ends(pendulum.orders)}The smallest error "
+        "is of the largest step that has it, and also given in units of the roundoff u = 2^-p with p significand bits; the "
+        f"floor is reached where it is at most {orders.ROUNDINGS} u, or the last step lowers the error by less than half the order."
     )
-    return Table("order_table", caption, columns, tuple(rows))
+    return Table("order_table", caption, tuple(columns), tuple(map(tuple, rows)))
 
 
 def drift_table(pendulum):

@@ -3,7 +3,7 @@ import numpy
 from matplotlib import pyplot
 
 from ulpgate_report.figures import figure_style, type_style
-from ulpgate_report.pendulum.drawing import name_of
+from ulpgate_report.pendulum.drawing import chunk_of, name_of, subject
 from ulpgate_report.records.pendulum_records import (
     HALF_STEP,
     OWN_REFERENCE,
@@ -13,10 +13,16 @@ from ulpgate_report.records.pendulum_records import (
 FAMILY = "pendulum_correlation"
 LIMIT = 0.9
 _CAPTION = (
-    "%s: correlation of the product of the angles between the rods with a reference run, chunk by chunk. Broken: the "
+    "%s: correlation of the product of the angles between the rods with a reference run, chunk by chunk%s. Broken: the "
     "limit %s. The vertical line is t_s, the start of the first chunk below the limit; from there on the strip is grey. "
-    "At the right: t_s and what limits it. Strips named RealHP<4> and half the step judge the reference: against a run of "
-    "four times its digits, and against one of half its step."
+    "Strips named RealHP<4> and half the step judge the reference: against a run of four times its digits, and against "
+    "one of half its step. At the right: t_s and what limits it. It is rounding that parts a type from the reference; but "
+    "where that happens no earlier than half the step parts the reference itself, time-stepping is named: by then the step "
+    "has spoilt the reference, and more digits would not bring the angles nearer to the true ones.%s"
+)
+_DIGITS = (
+    " The reference is named where the type parts from it no earlier than the reference from its run of four times the "
+    "digits."
 )
 _STRIP_INCHES = 0.5
 _WIDTH_INCHES = 7.0
@@ -100,6 +106,13 @@ def draw(pendulum):
                     tokens.index(pair[0]["type"]),
                 )
             )
-            caption = _CAPTION % (condition.text, LIMIT)
+            chunk = chunk_of(curve for _, curve in rows)
+            by_digits = any(row["limited_by"] == "the reference" for row, _ in rows)
+            caption = _CAPTION % (
+                subject(condition.scene, condition.dt, condition.variant),
+                f" of {chunk} s" if chunk else "",
+                LIMIT,
+                _DIGITS if by_digits else "",
+            )
             name = name_of(FAMILY, run, condition, list(grouped))
             yield name, caption, _draw(rows, tokens)

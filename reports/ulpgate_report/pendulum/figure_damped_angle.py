@@ -3,8 +3,8 @@ import numpy
 from matplotlib import pyplot
 
 from ulpgate_report.figures import figure_style, type_style
-from ulpgate_report.pendulum import published, savitzky_golay
-from ulpgate_report.pendulum.drawing import each_condition, name_of
+from ulpgate_report.pendulum import damping, published, savitzky_golay
+from ulpgate_report.pendulum.drawing import each_condition, name_of, subject
 
 FAMILY = "pendulum_angle"
 # Half the window in s, and the degree of its polynomial: the window is a chunk of the correlation.
@@ -13,7 +13,8 @@ DEGREE = 3
 _CAPTION = (
     "%s: angle between the rods 1 and 2 against time, a strip for each type, smoothed by a Savitzky-Golay filter (window "
     "%.4g s, degree %d; Savitzky, Golay, Anal. Chem. 36, 1964). At the right the angle as it is, around the time at which "
-    "the type has parted by %.4g rad, or the same time as in the strip above where it has not parted; the grey band at the left shows where that is.%s"
+    "the type has parted by %.4g rad, or the same time as in the strip above where it has not parted; the grey band at the left shows "
+    "where that is. All panels have one vertical scale, those at the right one horizontal scale too.%s%s"
 )
 _BEHIND = " Grey lines: the same in %s."
 _MOST_POINTS = 4000
@@ -63,7 +64,7 @@ def _plot(axes, times, angle, **style):
 def _draw_row(left, right, line, reference, window, colour):
     for axes, column in ((left, 2), (right, 1)):
         if reference is not line:
-            grey = {"color": _GREY, "linewidth": 1.6, "zorder": 1}
+            grey = {"color": _GREY, "linewidth": 1.0, "zorder": 1}
             _plot(axes, reference[0], reference[column], **grey)
         _plot(axes, line[0], line[column], color=colour, linewidth=0.8, zorder=2)
         axes.set_ylim(-0.2, numpy.pi + 0.2)
@@ -95,7 +96,9 @@ def _draw(lines, tokens, behind):
         colour, _ = type_style.line_style(token, tokens)
         _draw_row(left, right, line, reference, window, colour)
         left.set_xlim(0, end)
-        left.set_ylabel(token, rotation=0, ha="right", va="center", size=7.5)
+        # Far enough from the ticks that nobody reads both as one.
+        label = {"rotation": 0, "ha": "right", "va": "center", "size": 7.5}
+        left.set_ylabel(token, labelpad=12, **label)
     for left, _ in grid[:-1]:
         left.set_xticklabels([])
     grid[0][0].set_title("smoothed", size=8, pad=4)
@@ -126,7 +129,9 @@ def draw(pendulum):
         if lines and is_damped(condition.variant):
             behind = pendulum.most_precise([token for token, _ in lines])
             said = _BEHIND % behind if len(lines) > 1 else ""
-            about = (2 * HALF_WINDOW_S, DEGREE, PARTED, said)
-            caption = _CAPTION % (condition.text, *about)
+            why = damping.explanation(lines, behind)
+            about = (2 * HALF_WINDOW_S, DEGREE, PARTED, said, why)
+            begin = subject(condition.scene, condition.dt, condition.variant)
+            caption = _CAPTION % (begin, *about)
             name = name_of(FAMILY, run, condition, conditions)
             yield name, caption, _draw(lines, pendulum.type_tokens, behind)

@@ -3,15 +3,26 @@ import numpy
 from matplotlib import pyplot
 
 from ulpgate_report.figures import figure_style
-from ulpgate_report.pendulum.drawing import each_condition, name_of
+from ulpgate_report.pendulum import damping
+from ulpgate_report.pendulum.drawing import (
+    each_condition,
+    legend_above,
+    name_of,
+    subject,
+)
 from ulpgate_report.records import chain_series
 
 FAMILY = "pendulum_energy"
 _CAPTION = (
     "%s: parts of the energy against time (left), and how far their sum is from its start (right, logarithmic), with the "
     "mean of the velocities of two half steps and, raw, with one of them. A line at the right shows the largest error of each of "
-    "at most %d stretches. Parts that stay 0 are not drawn."
+    "at most %d stretches. %s%s"
 )
+_ZERO = "Parts that are exactly 0 all the time are not drawn."
+_SMALL = "Not drawn are parts that are exactly 0 all the time, and those too small to be seen, which are in the sum: %s."
+# A part this far below the largest one is thinner than the line at 0 that it would be.
+_VISIBLE = 1e-2
+_ROW_INCHES = 1.72
 _SHOWN_TYPES = ("float", "float128")
 _DASHES = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
 _ERRORS = (
@@ -27,8 +38,45 @@ def shown_types(tokens):
     return list(dict.fromkeys([tokens[0], tokens[-1]]))
 
 
-def _draw_parts(axes, series):
-    for index, (name, values) in enumerate(series.parts.items()):
+def _largest(values):
+    return float(numpy.abs(values[numpy.isfinite(values)]).max(initial=0.0))
+
+
+def shown_parts(lines):
+    """([names of parts that are drawn], {name of one that is not: [(type, its largest value)]}) of some runs."""
+    shown, small = [], {}
+    for token, series in lines:
+        largest = {name: _largest(values) for name, values in series.parts.items()}
+        limit = _VISIBLE * max(largest.values(), default=0.0)
+        for name, value in largest.items():
+            if value > limit:
+                shown += [name] if name not in shown else []
+            else:
+                small.setdefault(name, []).append((token, value))
+    return shown, {name: found for name, found in small.items() if name not in shown}
+
+
+def _unseen(small):
+    """What a caption says of the parts that are not drawn."""
+    if not small:
+        return _ZERO
+    texts = []
+    for name, found in small.items():
+        most = ", ".join(f"{value:.2g} J in {token}" for token, value in found)
+        texts.append(f"{_short(name)} (at most {most})")
+    return _SMALL % ", ".join(texts)
+
+
+def _short(name):
+    return name.removesuffix("_on_step")
+
+
+def _draw_parts(axes, series, names):
+    for index, name in enumerate(names):
+        # A part has one colour in all runs.
+        if name not in series.parts:
+            continue
+        values = series.parts[name]
         finite = numpy.isfinite(values)
         axes.plot(
             series.part_times[finite],
@@ -36,7 +84,7 @@ def _draw_parts(axes, series):
             color=figure_style.colour(index),
             linestyle=_DASHES[index % len(_DASHES)],
             linewidth=0.7,
-            label=name.removesuffix("_on_step"),
+            label=_short(name),
         )
     if series.parts:
         total = numpy.sum(list(series.parts.values()), axis=0)
@@ -64,9 +112,9 @@ def _draw_errors(axes, series):
     return drawn
 
 
-def _draw(lines):
+def _draw(lines, names):
     across = figure_style.side_by_side(2)
-    height = 2.1 * len(lines) * 2 / across + 0.4
+    height = _ROW_INCHES * len(lines) * 2 / across + 0.4
     figure, grid = pyplot.subplots(
         len(lines) * 2 // across,
         across,
@@ -74,11 +122,11 @@ def _draw(lines):
         squeeze=False,
         sharex=True,
     )
-    figure.subplots_adjust(wspace=0.28, hspace=0.2)
+    figure.subplots_adjust(wspace=0.36, hspace=0.2)
     last = grid[-1]
     grid = grid.reshape(len(lines), 2)
     for (left, right), (token, series) in zip(grid, lines):
-        _draw_parts(left, series)
+        _draw_parts(left, series, names)
         _draw_errors(right, series)
         left.set_ylabel(f"{token}: energy (J)")
         left.ticklabel_format(axis="y", useMathText=True)
@@ -86,19 +134,20 @@ def _draw(lines):
     for axes in last:
         axes.set_xlabel("time (s)")
         axes.set_xlim(0, max(float(s.part_times[-1]) for _, s in lines))
-    for axes in grid[0]:
-        if axes.lines:
-            axes.legend(
-                loc="lower left",
-                # Above the power of ten of the axis.
-                bbox_to_anchor=(-0.02, 1.07),
-                ncol=figure_style.legend_columns(4),
-                columnspacing=0.8,
-                handlelength=1.8,
-                handletextpad=0.5,
-                fontsize=7,
-            )
+    for column in grid.T:
+        # What one of the rows has alone is in the legend too.
+        handles = {n.get_label(): n for axes in reversed(column) for n in axes.lines}
+        if handles:
+            # Above the power of ten of the axis.
+            style = {"handlelength": 1.8, "handletextpad": 0.5, "fontsize": 7}
+            legend_above(column[0], _in_order(handles, names), -0.02, 1.07, **style)
     return figure
+
+
+def _in_order(handles, names):
+    """The lines of a legend by their labels: parts as they are drawn, the sum, the errors."""
+    order = [*map(_short, names), "sum", *(label for _, label, *_ in _ERRORS)]
+    return [handles[label] for label in order if label in handles]
 
 
 def draw(pendulum):
@@ -107,6 +156,13 @@ def draw(pendulum):
         of_type = {t: series for t, series in lines if series.errors and series.parts}
         if of_type:
             tokens = shown_types(list(of_type))
-            caption = _CAPTION % (condition.text, chain_series.MOST_ERRORS)
+            lines = [(token, of_type[token]) for token in tokens]
+            names, small = shown_parts(lines)
+            caption = _CAPTION % (
+                subject(condition.scene, condition.dt, condition.variant),
+                chain_series.MOST_ERRORS,
+                _unseen(small),
+                damping.explanation(lines, pendulum.most_precise(tokens)),
+            )
             name = name_of(FAMILY, run, condition, conditions)
-            yield name, caption, _draw([(t, of_type[t]) for t in tokens])
+            yield name, caption, _draw(lines, names)

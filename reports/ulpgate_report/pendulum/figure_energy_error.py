@@ -6,17 +6,20 @@ from matplotlib import pyplot
 from ulpgate_report.figures import figure_style
 from ulpgate_report.pendulum.drawing import (
     dodge,
+    ends_text,
+    legend_above,
     marker_handle,
     slug,
     step_handles,
     step_style,
+    subject,
 )
 from ulpgate_report.pendulum.figure_t_s import by_scene_and_variant
 from ulpgate_report.values import numbers, time_step, type_order
 
 FAMILY = "pendulum_max_error"
 _CAPTION = (
-    "%s: largest distance of the energy from its start until %s, against type, for each time step. Filled: with the mean "
+    "%s: largest distance of the energy from its start until the end of the run, %s, against type, for each time step. Filled: with the mean "
     "of the velocities of two half steps; hollow: raw, with one of them."
 )
 _SIZES = {False: 4, True: 7}
@@ -35,11 +38,11 @@ def errors(rows):
 
 
 def _ends(rows):
-    ends = {numbers.signed(row["t_end"]) for row in rows}
-    low, high = (f"{limit(ends):.4g}" for limit in (min, max))
-    return (
-        f"t = {high} s" if low == high else f"the end of the run ({low} s to {high} s)"
-    )
+    """{step: times}"""
+    ends = {}
+    for row in rows:
+        ends.setdefault(str(row["dt"]), set()).add(numbers.signed(row["t_end"]))
+    return ends
 
 
 def _draw(found):
@@ -60,8 +63,8 @@ def _draw(found):
                 [x for x, _ in mine],
                 [value for _, value in mine],
                 markerfacecolor="white" if raw else style["color"],
-                linestyle=":" if raw else "-",
-                linewidth=0.6,
+                # Between two types is nothing that a line could show.
+                linestyle="none",
                 **style,
             )
     handles = step_handles(steps)
@@ -72,14 +75,7 @@ def _draw(found):
     axes.set_xlim(-0.5, len(tokens) - 0.5)
     figure_style.log_axis(axes.yaxis)
     axes.set_ylabel("largest error of the energy (J)")
-    axes.legend(
-        handles=handles,
-        loc="lower left",
-        bbox_to_anchor=(-0.02, 1.0),
-        ncol=figure_style.legend_columns(4),
-        columnspacing=1.0,
-        handletextpad=0.2,
-    )
+    legend_above(axes, handles, x=-0.02, handletextpad=0.2)
     return figure
 
 
@@ -90,5 +86,5 @@ def draw(pendulum):
         found = errors(rows)
         if found:
             name = "_".join(filter(None, (FAMILY, scene, slug(variant))))
-            about = ", ".join(filter(None, (scene, variant)))
-            yield name, _CAPTION % (about, _ends(rows)), _draw(found)
+            about = (subject(scene, "", variant), ends_text(_ends(rows)))
+            yield name, _CAPTION % about, _draw(found)

@@ -1,9 +1,9 @@
 """The pendulum at several instants, a row for each type; what the most precise type does lies behind in grey."""
 import numpy
-from matplotlib import pyplot
+from matplotlib import pyplot, textpath, transforms
 
 from ulpgate_report.figures import figure_style, type_style
-from ulpgate_report.pendulum.drawing import each_condition, name_of
+from ulpgate_report.pendulum.drawing import each_condition, name_of, subject
 
 FAMILY = "pendulum_snapshots"
 _CAPTION = (
@@ -11,8 +11,13 @@ _CAPTION = (
     "nodes, larger than they are.%s"
 )
 _BEHIND = " Grey, broken: the same instant in %s."
-_WIDTH_INCHES, _HEIGHT_INCHES = 7.0, 8.0
+_HEIGHT_INCHES = 8.0
+_TYPE_POINTS = 7.5
+# Between the names of the types and the panels, in points; as in the axis labels of all figures.
+_PAD_POINTS = 4.0
 _GREY = "0.72"
+# Between panels, as a share of one.
+_AIR = 0.05
 # Around everything that is drawn, as a share of its larger extent.
 _MARGIN = 0.07
 # Two files are of one instant where their times agree to this share of the shortest gap.
@@ -64,24 +69,44 @@ def _draw_chain(axes, chain, colour, size, behind=False):
     axes.plot(x[:1], y[:1], marker="s", markersize=size, color="black", zorder=4)
 
 
+def _side(tokens, count):
+    """The width of one of `count` panels in inches that beside the names of the types takes all of the text's width."""
+    longest = max(
+        textpath.TextPath((0, 0), token, size=_TYPE_POINTS).get_extents().width
+        for token in tokens
+    )
+    page = (
+        figure_style.COLUMN_INCHES
+        if figure_style.is_one_column()
+        else figure_style.PAGE_INCHES
+    )
+    panels = page - (longest + 2 * _PAD_POINTS) / 72
+    # Between the panels is some air.
+    return panels / (max(3, count) * (1 + _AIR) - _AIR)
+
+
 def _draw(lines, instants, tokens, limits, behind):
     (left, right), (low, high) = limits
     aspect = min(2.0, max(0.5, (high - low) / (right - left)))
+    rows, columns = len(lines), len(instants)
     side = min(
-        figure_style.width(_WIDTH_INCHES) / max(3, len(instants)),
-        _HEIGHT_INCHES / aspect / len(lines),
+        _side([token for token, _ in lines], columns), _HEIGHT_INCHES / aspect / rows
     )
     height = side * aspect
     size = min(2.6, 2 * side)
     figure, grid = pyplot.subplots(
-        len(lines),
-        len(instants),
-        figsize=(side * len(instants), height * len(lines)),
+        rows,
+        columns,
+        figsize=tuple(
+            one * (count * (1 + _AIR) - _AIR)
+            for one, count in ((side, columns), (height, rows))
+        ),
         squeeze=False,
         sharex=True,
         sharey=True,
     )
-    figure.subplots_adjust(wspace=0.06, hspace=0.06)
+    # The names and times are outside: the panels are all of the figure.
+    figure.subplots_adjust(left=0, right=1, bottom=0, top=1, wspace=_AIR, hspace=_AIR)
     for row, (token, _) in zip(grid, lines):
         colour, _ = type_style.line_style(token, tokens)
         for axes, of_type in zip(row, instants.values()):
@@ -93,7 +118,8 @@ def _draw(lines, instants, tokens, limits, behind):
                 _draw_chain(axes, of_type[behind], _GREY, size, behind=True)
             if token in of_type:
                 _draw_chain(axes, of_type[token], colour, size)
-        row[0].set_ylabel(token, rotation=0, ha="right", va="center", size=7.5)
+        label = {"rotation": 0, "ha": "right", "va": "center", "size": _TYPE_POINTS}
+        row[0].set_ylabel(token, labelpad=_PAD_POINTS, **label)
     for axes, time in zip(grid[0], instants):
         axes.set_title(f"t = {time:.4g} s", size=7.5, pad=3)
     _draw_scale(grid[-1][0], right - left, left, low)
@@ -101,26 +127,32 @@ def _draw(lines, instants, tokens, limits, behind):
 
 
 def _draw_scale(axes, width, left, low):
-    """A bar of a round length in the first panel of the last row, below the frame."""
+    """A bar of a round length below the first panel of the last row, from its left edge; its length stands below it."""
     exponent = numpy.floor(numpy.log10(width / 2))
     length = max(
         m * 10**exponent for m in (1, 2, 5) if m * 10**exponent <= width / 2
     )
-    transform = axes.get_xaxis_transform()
+    # In points below the frame, however high that is.
+    bar, text = (
+        transforms.offset_copy(
+            axes.get_xaxis_transform(), axes.figure, y=below, units="points"
+        )
+        for below in (-5, -8.5)
+    )
     axes.plot(
         [left, left + length],
-        [-0.06, -0.06],
-        transform=transform,
+        [0, 0],
+        transform=bar,
         color="black",
         linewidth=1.2,
         clip_on=False,
     )
     axes.text(
-        left + length / 2,
-        -0.09,
+        left,
+        0,
         f"{length * 1000:g} mm",
-        transform=transform,
-        ha="center",
+        transform=text,
+        ha="left",
         va="top",
         size=7,
     )
@@ -137,7 +169,7 @@ def draw(pendulum):
         tokens, limits = pendulum.type_tokens, _limits(instants)
         figure = _draw(lines, instants, tokens, limits, behind)
         caption = _CAPTION % (
-            condition.text,
+            subject(condition.scene, condition.dt, condition.variant),
             _BEHIND % behind if len(lines) > 1 else "",
         )
         yield name_of(FAMILY, run, condition, conditions), caption, figure

@@ -1,27 +1,39 @@
 """How long each type stays true, at each time step: t_s against type, lower bounds as arrows, published values beside."""
 from matplotlib import pyplot
+from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 
 from ulpgate_report.figures import figure_style
 from ulpgate_report.pendulum import published
 from ulpgate_report.pendulum.drawing import (
+    chunk_of,
     dodge,
+    ends_text,
+    legend_above,
     marker_handle,
     slug,
     step_handles,
     step_style,
+    subject,
 )
 from ulpgate_report.records.pendulum_records import HALF_STEP, OWN_REFERENCE
 from ulpgate_report.values import time_step, type_order
 
 FAMILY = "pendulum_t_s"
 _CAPTION = (
-    "%s: how long the angles correlate with the reference run, t_s, against type. Filled: limited by rounding; hollow: by "
-    "time-stepping. An arrow, filled too: true to the end of the run, so that t_s is longer. The reference stands at its correlation "
-    "with a run of four times its digits. Dotted, in the colour of its step: until then the reference agrees with its run "
-    "of half the step.%s"
+    "%s: how long the angles correlate with the reference run, t_s, against type: the start of the first "
+    "chunk%s whose correlation is below the limit. Filled: limited by rounding; hollow: by time-stepping, where rounding "
+    "parts the type no earlier than half the step parts the reference itself.%s%s%s The reference stands at its correlation "
+    "with a run of four times its digits.%s"
 )
+_DIGITS = " Grey: by the digits of the reference, which parts from its run of four times the digits no later."
+_BOUND = " With an arrow: no chunk is below the limit to the end of the run, %s, so that t_s is longer."
+_HALF = " Dotted, in the colour of its step: until then the reference agrees with its run of half the step."
 _PAPER = " Diamonds: published, %s (the end of the chunk, 0.05 s after its start)."
+
+
+# A face other than that of its step.
+_FACES = {"time-stepping": "white", "the reference": "0.8"}
 
 
 def by_scene_and_variant(rows):
@@ -43,8 +55,10 @@ def durations(rows, tokens):
 
 
 def _draw_point(axes, x, row, style):
-    hollow = row["limited_by"] == "time-stepping"
-    face = "white" if hollow else style["color"]
+    face = _FACES.get(row["limited_by"], style["color"])
+    if row["to_the_end"]:
+        # Nothing of the two is known to limit it.
+        face = "none"
     axes.plot([x], [row["t_s"]], markerfacecolor=face, linestyle="none", **style)
     if row["to_the_end"]:
         axes.annotate(
@@ -82,6 +96,24 @@ def _draw_published(axes, scene, variant, steps, tokens):
     return drawn
 
 
+def _handles(steps, rows, shown, with_paper):
+    """The entries of the legend: the steps, and what is drawn of the rest."""
+    handles = step_handles(steps)
+    handles.append(marker_handle("rounding"))
+    handles.append(marker_handle("time-stepping", face="white"))
+    if any(row["limited_by"] == "the reference" for row in shown):
+        handles.append(marker_handle("digits of the reference", face="0.8"))
+    if any(row["to_the_end"] for row in shown):
+        label = "at least (end of the run)"
+        point = marker_handle(label, face="none")
+        handles.append((point, marker_handle(label, marker=r"$\uparrow$", size=7)))
+    if any(row["against"] == HALF_STEP for row in rows):
+        handles.append(Line2D([], [], color="0.4", ls=":", label="half the step"))
+    if with_paper:
+        handles.append(marker_handle("published", "white", "black", "D", 4.5))
+    return handles
+
+
 def _draw(rows, scene, variant, all_tokens):
     found = durations(rows, all_tokens)
     steps = time_step.ordered(row["dt"] for row in rows)
@@ -97,28 +129,44 @@ def _draw(rows, scene, variant, all_tokens):
             if row["against"] == HALF_STEP and str(row["dt"]) == dt:
                 dotted = {"color": style["color"], "linestyle": ":", "linewidth": 1.0}
                 axes.axhline(row["t_s"], zorder=1, **dotted)
-    handles = step_handles(steps)
-    handles.append(marker_handle("rounding"))
-    handles.append(marker_handle("time-stepping", face="white"))
-    if any(row["against"] == HALF_STEP for row in rows):
-        handles.append(Line2D([], [], color="0.4", ls=":", label="half the step"))
     with_paper = _draw_published(axes, scene, variant, steps, tokens)
-    if with_paper:
-        handles.append(marker_handle("published", "white", "black", "D", 4.5))
     axes.set_xticks(range(len(tokens)), tokens, rotation=30, ha="right")
     axes.set_xlim(-0.5, len(tokens) - 0.5)
     # Room for the arrows.
     axes.set_ylim(0, 1.18 * max(row["t_s"] for row in rows) or 1.0)
     axes.set_ylabel("$t_s$ (s)")
-    axes.legend(
-        handles=handles,
-        loc="lower left",
-        bbox_to_anchor=(0, 1.0),
-        ncol=figure_style.legend_columns(4),
-        columnspacing=1.0,
+    legend_above(
+        axes,
+        _handles(steps, rows, found.values(), with_paper),
         handletextpad=0.2,
+        handler_map={tuple: HandlerTuple(ndivide=None, pad=0)},
     )
     return figure, with_paper
+
+
+def _caption(pendulum, scene, variant, rows, with_paper):
+    curves = [
+        curve
+        for run in pendulum.runs
+        for row in run.correlations
+        if row in rows
+        for key, curve in run.curves.items()
+        if key == (scene, row["type"], row["against"])
+    ]
+    chunk = chunk_of(curves)
+    shown = durations(rows, pendulum.type_tokens).values()
+    ends = {}
+    for row in shown:
+        if row["to_the_end"]:
+            ends.setdefault(str(row["dt"]), set()).add(row["t_s"])
+    return _CAPTION % (
+        subject(scene, "", variant),
+        f" of {chunk} s" if chunk else "",
+        _DIGITS if any(row["limited_by"] == "the reference" for row in shown) else "",
+        _BOUND % ends_text(ends) if ends else "",
+        _HALF if any(row["against"] == HALF_STEP for row in rows) else "",
+        _PAPER % published.CITATION if with_paper else "",
+    )
 
 
 def draw(pendulum):
@@ -126,6 +174,4 @@ def draw(pendulum):
     for (scene, variant), rows in by_scene_and_variant(pendulum.correlations).items():
         figure, with_paper = _draw(rows, scene, variant, pendulum.type_tokens)
         name = "_".join(filter(None, (FAMILY, scene, slug(variant))))
-        paper = _PAPER % published.CITATION if with_paper else ""
-        about = ", ".join(filter(None, (scene, variant)))
-        yield name, _CAPTION % (about, paper), figure
+        yield name, _caption(pendulum, scene, variant, rows, with_paper), figure

@@ -8,7 +8,12 @@ _SCENE = Column("scene", "scene", "code")
 _VARIANT = Column("variant", "variant", "text")
 _TYPE = Column("type", "type", "code")
 _DT = Column("dt_s", "dt (s)", "text")
-_LETTERS = {"rounding": "r", "time-stepping": "t", "the end of the run": "e"}
+_LETTERS = {
+    "rounding": "r",
+    "time-stepping": "t",
+    "the reference": "d",
+    "the end of the run": "e",
+}
 _AGAINST = {OWN_REFERENCE: "its own RealHP<4>", HALF_STEP: "half its step"}
 
 
@@ -79,9 +84,17 @@ def pendulum_divergence(pendulum):
     caption = (
         "How long the angles of the pendulum correlate with the reference run: t_s in s, the start of the first chunk "
         "whose correlation is below the limit, for each time step; >= where no chunk is. Limited by r: rounding, t: "
-        "time-stepping (the reference parts from itself at half the step no later), e: the end of the run. The rows "
-        "against RealHP<4> and half the step judge the reference itself."
+        "time-stepping (the reference parts from itself at half the step no later), d: the digits of the reference (it parts "
+        "from its own RealHP<4> no later), e: the end of the run. The rows against RealHP<4> and half the step judge the "
+        "reference itself."
     )
+    variants = dict.fromkeys(
+        one for row in rows for one in published.overrides(row.get("variant", ""))
+    )
+    told = [
+        f"{v}: {published.MEANINGS[v]}" for v in variants if v in published.MEANINGS
+    ]
+    caption += "".join(f" {text}." for text in told)
     if with_published:
         caption += f" Published: {published.CITATION}; it prints the end of that chunk, 0.05 s later than its start."
     else:
