@@ -38,7 +38,7 @@ def library_time(beside):
         "divided by its lanes. Functions of a library run in a process of their own."
     )
     return Table(
-        "library_time", caption, (*columns, *_columns(beside, "real")), tuple(rows)
+        "library_time", caption, (*columns, *_columns(beside, "rough")), tuple(rows)
     )
 
 

@@ -164,6 +164,9 @@ def pendulum_energy(pendulum):
         *columns_of(
             "real",
             t_end_s="end (s)",
+        ),
+        *columns_of(
+            "rough",
             energy_start_J="energy at start (J)",
             max_energy_error_J="largest error (J)",
             max_energy_error_raw_J="raw (J)",

@@ -23,7 +23,7 @@ _ERRORS = columns_of(
     t_s="t_s (s)",
 )
 _ENERGY = "Energy stands for what a problem conserves: of a reaction its mass."
-_SECONDS = columns_of("real", seconds="time (s)")
+_SECONDS = columns_of("rough", seconds="time (s)")
 _COMMAND = columns_of("command", command="command")
 
 
@@ -38,7 +38,9 @@ def _values(row, told):
     for column in told:
         make = made.get(column.name)
         value = make(row) if make else row.get(column.name)
-        found.append(numbers.signed(value) if column.kind == "real" else value)
+        found.append(
+            numbers.signed(value) if column.kind in ("real", "rough") else value
+        )
     return tuple(found)
 
 
