@@ -196,8 +196,8 @@ def benchmark_table(scenes):
         *columns_of(
             "rough",
             slowdown="slowdown",
-            slowdown_deviation="deviation of the slowdown",
-            paper_slowdown="published slowdown",
+            slowdown_deviation="its deviation",
+            paper_slowdown="published",
         ),
     )
     caption = (

@@ -131,6 +131,9 @@ def test_causes_are_sentences():
     (found,) = csv_rows(tables.stress_findings(stress_of(row)))
     told = "A property of the method. It slides. First wrong: step 3."
     assert found["cause"] == told
+    row.update(cause="v + a dt is v", why="sphere[0].radius: must be finite")
+    (found,) = csv_rows(tables.stress_findings(stress_of(row)))
+    assert found["cause"].startswith("v + a dt is v. sphere[0].radius: must")
 
 
 def test_null_and_infinite_values(run_directory):

@@ -1,4 +1,5 @@
 """The tables of the stiff and extreme cases as plain data."""
+import re
 from dataclasses import dataclass
 
 from ulpgate_report.records import stress_records as records
@@ -96,11 +97,17 @@ def _types(rows, of_type):
     return ", ".join(row["type"] for row in rows)
 
 
+def _capitalised(text):
+    """As a sentence begins, unless that is a symbol or a name: v + a dt, sphere[0].radius."""
+    is_word = re.match(r"[a-z-]{2,}( |:|,|$)", text) or text.startswith("a ")
+    return text[0].upper() + text[1:] if is_word else text
+
+
 def _reason(cause, row):
     """Sentences: why it is known to be, what was found, and where it goes wrong first."""
     wrong = row["first_wrong"] and f"first wrong: {row['first_wrong']}"
     parts = [p.rstrip(". ") for p in (cause, row["why"], wrong) if p]
-    return " ".join(p[0].upper() + p[1:] + "." for p in parts) or None
+    return " ".join(_capitalised(p) + "." for p in parts) or None
 
 
 def stress_findings(stress):

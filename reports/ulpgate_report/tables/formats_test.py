@@ -24,6 +24,7 @@ def test_names_are_escaped(text, latex, markdown, why):
 
 def test_prose_has_its_powers_raised_and_its_rows_apart():
     columns = (Column("why", "why", "prose"),)
+    assert table_latex.prose("inf: of t_s") == r"$\infty$: of $t_s$"
     rows = (("a root of 2^-24 and t^2",), ("x",), ("y",))
     found = table_latex.render(Table("t", "c", columns, rows)).splitlines()
     assert r"a root of $\mathrm{2}^{-24}$ and $\mathrm{t}^{2}$ \\*[2pt]" in found

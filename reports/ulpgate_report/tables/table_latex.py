@@ -13,6 +13,7 @@ _ROWS_TOGETHER = 3
 PROSE_MM, SHARED_PROSE_MM = 70, 80
 # Rows of several lines each are told apart.
 _BETWEEN_PROSE = "[2pt]"
+_SYMBOLS = {"t_s": "t_s", "inf": r"\infty"}
 _POWER = re.compile(r"\b(\w+)\^(-?\w+|-?\([\w-]+\))")
 _SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -53,13 +54,13 @@ def escape_code(text):
 
 
 def prose(text):
-    """The same with its powers raised and t_s as the symbol it is."""
+    """The same with its powers raised, and t_s and an inf that is explained as the symbols that they are."""
     parts, last = [], 0
-    for found in re.finditer(rf"{_POWER.pattern}|\bt_s\b", text):
+    for found in re.finditer(rf"{_POWER.pattern}|\bt_s\b|\binf(?=:)", text):
         parts.append(escape(text[last : found.start()]))
         base, exponent = found.group(1, 2)
-        symbol = "t_s" if base is None else f"\\mathrm{{{base}}}^{{{exponent}}}"
-        parts.append(f"${symbol}$")
+        power = f"\\mathrm{{{base}}}^{{{exponent}}}"
+        parts.append(f"${_SYMBOLS.get(found.group(), power)}$")
         last = found.end()
     return "".join([*parts, escape(text[last:])])
 
