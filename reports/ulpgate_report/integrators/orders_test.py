@@ -7,29 +7,8 @@ from ulpgate_report.integrators import orders, tables
 from ulpgate_report.records import pendulum_records
 from ulpgate_report.testing import sample_pendulum
 
-BITS = sample_pendulum.BITS
+BITS, order_rows = sample_pendulum.BITS, sample_pendulum.order_rows
 U = 2.0 ** -BITS["double"]
-
-
-def rows(errors, order=4, **changes):
-    """Lines of orders.jsonl of halved steps."""
-    found, before = [], None
-    for halving, error in enumerate(errors):
-        usable = all(isinstance(e, float) and e > 0 for e in (before, error))
-        row = {
-            "what": "order",
-            "integrator": "rule",
-            "order": order,
-            "type": "double",
-            "problem": "kepler",
-            "dt": 0.5**halving,
-            "steps": 2**halving,
-            "error": error,
-            "measured_order": math.log2(before / error) if usable else None,
-        }
-        found.append({**row, **changes})
-        before = error
-    return found
 
 
 def tabled(lines):
@@ -71,35 +50,35 @@ FALLING = [16.0**-n for n in range(8)]
     ],
 )
 def test_convergence(errors, measured, floor, why):
-    (found,) = orders.convergences(rows(errors), BITS)
+    (found,) = orders.convergences(order_rows(errors), BITS)
     assert found.measured == (measured and pytest.approx(measured)), why
     assert found.floor == floor, why
 
 
 def test_what_is_clear_does_not_hang_on_the_last_roundings():
     one, other = (
-        orders.convergences(rows([1e-9, 4e-12, 170 * U, n * U], order=8), BITS)[0]
+        orders.convergences(order_rows([1e-9, 4e-12, 170 * U, n * U], order=8), BITS)[0]
         for n in (1, 2)
     )
     assert one.clear == other.clear and len(one.clear) == 3
 
 
 def test_smallest_error_has_its_step():
-    (found,) = orders.convergences(rows([1e-9, 1e-12, 1e-12, 3e-12]), BITS)
+    (found,) = orders.convergences(order_rows([1e-9, 1e-12, 1e-12, 3e-12]), BITS)
     assert (found.smallest, found.smallest_dt) == (1e-12, 0.5)
-    (exact,) = orders.convergences(rows([1e-9, 0.0, 0.0]), BITS)
+    (exact,) = orders.convergences(order_rows([1e-9, 0.0, 0.0]), BITS)
     assert (exact.smallest, exact.smallest_dt) == (0, 0.5)
     assert exact.drawn == ((1.0, 1e-9),) and len(exact.points) == 3
 
 
 def test_type_without_known_bits_has_the_floor_of_its_errors():
-    lines = rows(FALLING + [FALLING[-1]], type="mpfr62")
+    lines = order_rows(FALLING + [FALLING[-1]], type="mpfr62")
     (found,) = orders.convergences(lines, {})
     assert (found.measured, found.floor) == (4, FALLING[-1])
 
 
 def test_order_of_the_lines_does_not_matter():
-    given = rows(FALLING)
+    given = order_rows(FALLING)
     assert orders.convergences(given, BITS) == orders.convergences(given[::-1], BITS)
 
 
@@ -123,7 +102,7 @@ def test_unit_roundoff(token, bits, expected, why):
 
 
 def test_tables_of_orders():
-    lines = rows(FALLING + [2e-9])
+    lines = order_rows(FALLING + [2e-9])
     table, (row,) = tabled(lines)
     assert " in double " in table.caption and "type" not in row
     assert (row["problem"], row["integrator"], row["order"]) == ("kepler", "rule", 4)
@@ -137,20 +116,20 @@ def test_tables_of_orders():
 
 
 def test_table_of_several_types_names_them():
-    table, found = tabled([*rows(FALLING), *rows(FALLING, type="float128")])
+    table, found = tabled([*order_rows(FALLING), *order_rows(FALLING, type="float128")])
     assert [row["type"] for row in found] == ["double", "float128"]
     assert " in double " not in table.caption
 
 
 def test_table_has_errors_of_0():
-    _, (row,) = tabled(rows([1e-9, 0.0]))
+    _, (row,) = tabled(order_rows([1e-9, 0.0]))
     assert (row["smallest_error"], row["smallest_error_u"]) == (0, 0)
     assert (row["smallest_error_dt"], row["floor"]) == ("2^-1", "yes")
     assert row["measured_order"] is None and row["measured_pairs"] is None
 
 
 def test_table_says_where_the_runs_end():
-    lines = rows(FALLING, t_end=1.0) + rows(
+    lines = order_rows(FALLING, t_end=1.0) + order_rows(
         FALLING, 1, integrator="e", t_end=2.0**-19
     )
     table, _ = tabled(lines)

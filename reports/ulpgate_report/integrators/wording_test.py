@@ -2,14 +2,14 @@
 import pytest
 
 from ulpgate_report.integrators import orders, wording
-from ulpgate_report.integrators.orders_test import BITS, rows
+from ulpgate_report.testing.sample_pendulum import BITS, order_rows
 
 
 def found(**errors):
     """{double: convergences} of integrators with these errors, in this order."""
     return {
         "double": [
-            orders.convergences(rows(mine, integrator=name), BITS)[0]
+            orders.convergences(order_rows(mine, integrator=name), BITS)[0]
             for name, mine in errors.items()
         ]
     }

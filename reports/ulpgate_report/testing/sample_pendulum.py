@@ -45,6 +45,27 @@ def duration(token, dt):
     return t_s, "rounding" if rounding <= stepping else "time-stepping"
 
 
+def order_rows(errors, order=4, **changes):
+    """Lines of orders.jsonl of halved steps: one of each of these errors."""
+    found, before = [], None
+    for halving, error in enumerate(errors):
+        usable = all(isinstance(e, float) and e > 0 for e in (before, error))
+        row = {
+            "what": "order",
+            "integrator": "rule",
+            "order": order,
+            "type": "double",
+            "problem": "kepler",
+            "dt": 0.5**halving,
+            "steps": 2**halving,
+            "error": error,
+            "measured_order": math.log2(before / error) if usable else None,
+        }
+        found.append({**row, **changes})
+        before = error
+    return found
+
+
 def correlation_record(token, dt="1e-5", variant="mass=yade", **changes):
     """One line of correlation.jsonl."""
     t_s, limit = duration(token, seconds(dt))
