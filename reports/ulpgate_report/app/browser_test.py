@@ -89,6 +89,12 @@ def wait_until(true, seconds=5):
         time.sleep(0.05)
 
 
+def test_the_first_distribution_is_one_of_the_largest_errors(browser):
+    # A bucket has a quarter of an octave: 113 ULP and 118 ULP are in the same.
+    worst = texts(browser, "#glance table td:first-child code")[-8:-5]
+    assert browser.find_element("id", "row").get_property("value") in worst
+
+
 def test_a_cell_opens_and_leads_to_its_distribution(browser):
     row = "//table[@id='ulp_matrix']//tr[td[1]/code='exp']/td[2]/button"
     browser.find_element("xpath", row).click()
@@ -142,6 +148,12 @@ box.closest('details').open = true;
 box.scrollLeft = 200;
 return document.querySelector('#long_table td').getBoundingClientRect().left - box.getBoundingClientRect().left"""
     assert 0 <= browser.execute_script(left) < 4
+    # Figures fill the width of a screen; on a phone they are scrolled instead of made illegible.
+    sizes = """
+return [...document.querySelectorAll('.paper')].map(
+  (e) => [e.clientWidth, e.querySelector('svg').getBoundingClientRect().width])"""
+    for room, figure in browser.execute_script(sizes):
+        assert figure == pytest.approx(max(room - 16, 576), abs=2)
     back = "return getComputedStyle(document.body).backgroundColor"
     light = browser.execute_script(back) == "rgb(255, 255, 255)"
     assert light == (scheme == "light")

@@ -138,6 +138,12 @@ def _inline_svg(name, text):
     return Markup(re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{prefix}", element))
 
 
+def _height(svg):
+    """The height that a figure was drawn with, as CSS takes it; nothing where it has none."""
+    found = re.search(r'<svg[^>]*\bheight="([0-9.]+(?:pt|px|in|cm|mm))"', svg)
+    return found.group(1) if found else ""
+
+
 def figures(drawn, family, title, none_text):
     """Blocks: every drawn figure whose name is `family` or starts with it and `_`, or a sentence."""
     found = [
@@ -145,6 +151,7 @@ def figures(drawn, family, title, none_text):
             "kind": "figure",
             "title": title,
             "svg": _inline_svg(name, svg),
+            "tall": _height(svg),
             "caption": caption,
         }
         for name, (svg, caption) in drawn.items()

@@ -92,7 +92,15 @@
     plot.replaceChildren(svg);
   }
 
-  Object.keys(data.curves).forEach((name) => choice.append(new Option(name, name)));
+  // The first one seen is that of the largest error; exact functions have nothing to show.
+  function largest(name) {
+    const edges = Object.values(data.curves[name]).flatMap((curve) => curve[2].map((bucket) => bucket[0]));
+    return Math.max(-Infinity, ...edges);
+  }
+
+  const names = Object.keys(data.curves);
+  names.forEach((name) => choice.append(new Option(name, name)));
+  choice.value = names.reduce((best, name) => (largest(name) > largest(best) ? name : best), names[0]);
   choice.addEventListener("change", () => draw(choice.value));
   if (choice.options.length) draw(choice.value);
 })();
