@@ -9,7 +9,6 @@ FIGURE_HEIGHT_MM = 205.0
 _MM_PER_INCH = 25.4
 _LONGEST_WORD = 30
 _LANDSCAPE = r"\begin{landscape}"
-# What is set as mathematics in a caption: 2^-p, 1e6 beside a unit stays as it is typed in commands.
 
 _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
@@ -31,6 +30,7 @@ _HEAD = r"""\documentclass[a4paper,10pt]{article}
 \begin{abstract}\noindent
 %s
 \end{abstract}
+\tableofcontents
 """
 _TAIL = "\\end{document}\n"
 

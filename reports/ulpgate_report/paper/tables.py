@@ -50,7 +50,7 @@ def beside_published(combined):
     rows.sort(key=lambda one: order[one[1]])
     columns = (
         *columns_of("code", function="function", type="type"),
-        Column("published", "published", "distance"),
+        Column("published", "theirs", "distance"),
         Column("distance", "ours, the same measure", "distance"),
         *columns_of("ulp", paper_ulp="ours (ULP)", max_ulp="all strata (ULP)"),
         Column("mismatches", "wrong kind", "count"),
@@ -58,7 +58,7 @@ def beside_published(combined):
     caption = (
         "Largest errors beside the published ones (gcc 9.3, Boost 1.71, 2e7 arguments): the integer distance to the rounded reference over its two "
         "strata, the error in ULP against the unrounded reference over the same strata, and over all, with what is of the wrong kind there. "
-        "Fewer arguments find smaller maxima: how many ours has is said at the end."
+        "Fewer arguments find smaller maxima as a rule: how many ours has is said at the end."
     )
     return Table("beside_published", caption, columns, tuple(rows))
 

@@ -152,6 +152,12 @@ def _chapter(writer, one, commands, tell):
     return upright + figures + [i for i in inputs if i not in upright]
 
 
+def _results(one):
+    """What a chapter's run found, in the sentences that stand above everything on its page."""
+    headlines = (kind.headline(data) for kind, data in one.parts)
+    return " ".join(text for said in headlines for text, _ in said)
+
+
 def libraries_of(data):
     """(name, its functions) of libraries side by side; what this program calls itself is in the chapter of functions."""
     beside = data.get(kind_libraries)
@@ -203,7 +209,8 @@ def write(runs, out, history=None, tell=lambda _: None):
         inputs = _chapter(writer, one, commands, tell)
         if one.chapter.run == "libraries":
             inputs += _write_claims(writer, runs, commands)
-        chapters.append((one.chapter.title, one.chapter.says, inputs))
+        says = f"{one.chapter.says} {_results(one)}"
+        chapters.append((one.chapter.title, says, inputs))
     found = _write_findings(writer, runs, sources)
     if found:
         says = (
@@ -214,7 +221,10 @@ def write(runs, out, history=None, tell=lambda _: None):
         chapters.append(("Findings", says, ["findings.tex"]))
     context = sources[0].context
     version = context.get("tool", {}).get("version", "")
-    abstract = (
+    abstract = f"{sources[0].chapter.title}: {_results(sources[0])} "
+    if found:
+        abstract += f"{len(found)} findings, each with a command that shows it, are in the last section. "
+    abstract += (
         f"Every number is from records that stand beside this document; `scripts/paper --check` traces each to its record. "
         f"Made on {provenance.machine(context)}."
     )

@@ -78,10 +78,8 @@ def _text(cell, kind):
         shown = "--" if value is None else _number(shown)
     elif kind in cell_text.CODE_KINDS:
         shown = rf"\texttt{{{escape_code(shown)}}}"
-    elif kind == "prose":
-        shown = prose(shown)
     else:
-        shown = escape(shown)
+        shown = prose(shown)
     # Not raised: beside a power of ten it would be one more exponent.
     return shown + rf"\,{{\tiny {escape(mark)}}}" if mark else shown
 
