@@ -1,7 +1,7 @@
 """What is tabled of the math functions: columns and rows, without any format."""
 from ulpgate_report.math.combine import PAPER_STRATA
 from ulpgate_report.tables.table import Column, Marked, Table, columns_of
-from ulpgate_report.values import numbers
+from ulpgate_report.values import numbers, outcomes
 from ulpgate_report.values.row import Row
 
 
@@ -104,12 +104,13 @@ def type_table(combined):
         "Rows (functions, or parts of them) of each type by their largest error, the worst of them, and results that no number of ULP describes: "
         "how many, in how many rows, and of which kinds."
     )
+    caption += outcomes.explained(n for n, _ in _causes(combined.cells.values()))
     caption = _told(caption, [cell.max_ulp for cell in combined.cells.values()])
     return Table("type_table", caption, columns, tuple(lines))
 
 
 def worst_table(combined, most=8):
-    """The rows with the largest errors of all types."""
+    """The functions with the largest errors, each in the type where its own is largest; of several infinite ones all are counted."""
     judged = [
         (row, token, cell)
         for (row, token), cell in combined.cells.items()
@@ -117,6 +118,10 @@ def worst_table(combined, most=8):
     ]
     # Ties keep the order of functions and types.
     judged.sort(key=lambda one: -one[2].max_ulp)
+    worst = {}
+    for one in judged:
+        worst.setdefault(one[0], one)
+    infinite = sum(cell.max_ulp == numbers.INFINITE for _, _, cell in judged)
     rows = [
         (
             row.label,
@@ -125,7 +130,7 @@ def worst_table(combined, most=8):
             cell.stratum,
             command_of(row, token, cell.argmax),
         )
-        for row, token, cell in judged[:most]
+        for row, token, cell in list(worst.values())[:most]
     ]
     columns = (
         *columns_of("code", function="function", type="type"),
@@ -133,7 +138,14 @@ def worst_table(combined, most=8):
         Column("stratum", "stratum", "text"),
         Column("command", "shown by", "command"),
     )
-    caption = _told("The largest errors of all.", [row[2] for row in rows])
+    caption = (
+        "The largest errors of all, each function in the type where its own is largest."
+    )
+    caption = _told(caption, [row[2] for row in rows])
+    if infinite:
+        caption += (
+            f" So large are {infinite} rows: a function, or a part of it, in a type."
+        )
     return Table("worst_table", caption, columns, tuple(rows))
 
 
@@ -245,4 +257,5 @@ def mismatch_table(combined):
         Column("first_argument", "first argument", "arguments"),
     )
     caption = "Samples whose outcome is of the wrong kind, with the first argument of each class."
+    caption += outcomes.explained(sorted({row[4] for row in rows}))
     return Table("mismatch_table", caption, columns, tuple(rows))

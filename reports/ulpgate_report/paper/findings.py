@@ -3,29 +3,13 @@ from dataclasses import dataclass
 
 from ulpgate_report.math import tables as math_tables
 from ulpgate_report.records.pendulum_records import HALF_STEP, OWN_REFERENCE
-from ulpgate_report.values import numbers
+from ulpgate_report.values import numbers, outcomes
 
 # Below this an error of a function is no finding: libraries document no less.
 LARGE_ULP = 10.0
 MASS = "mass=yade"
 # At most so many of one library, the worst first; the table of all functions has the others.
 MOST = 12
-_WORDS = {
-    "nan": "gives NaN where there is a value",
-    "not_nan": "gives a value where there is none",
-    "inf": "gives a wrong infinity",
-    "zero_sign": "gives a zero with the wrong sign",
-    "overflow_spurious": "gives infinity where the result is in range",
-    "overflow_missed": "gives a number where the result is out of range",
-    "underflow_spurious": "gives zero where the result is in range",
-    "nonzero_for_zero": "gives a number where the result is zero",
-    "exception": "throws an exception",
-    "crash": "crashes",
-    "hang": "does not end",
-    "not_a_function": "gives another result on another call",
-    "lane_dependent": "gives another result beside other lanes",
-    "environment": "leaves a changed floating-point environment",
-}
 
 
 @dataclass(frozen=True)
@@ -71,7 +55,7 @@ def _errs(error):
 
 
 def _word(outcome):
-    return _WORDS.get(outcome, "gives " + outcome.replace("_", " "))
+    return outcomes.says(outcome)
 
 
 def _at(count):

@@ -67,7 +67,9 @@ def machine(context):
 def _drawn(samples, strata):
     """How many samples a stratum has; of functions the two published ones share them, and others have as many as one."""
     shared = isinstance(strata, list) and _SHARING <= set(strata) <= _OF_FUNCTIONS
-    return f"{samples // 2 if shared else samples} samples in each drawn stratum"
+    if shared:
+        return f"{samples // 2} samples in each drawn stratum (uniform and stratified are {samples} together)"
+    return f"{samples} samples in each drawn stratum"
 
 
 def arguments(context):
