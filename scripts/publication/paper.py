@@ -2,13 +2,14 @@
 
     scripts/paper                         # --quick: minutes on two cores, into out/paper
     scripts/paper --full --hours 4        # the published sizes; says what was left out, the same command goes on
-    scripts/paper --check                 # traces every number to a record of OUT/runs; writes OUT/trace.csv
+    scripts/paper --check                 # traces every number to a record of OUT/runs; writes OUT/trace.csv; runs the findings' commands again
 
 OUT/runs holds the records, and status.txt there what is done, running and left; a killed run goes on with the same command.
 OUT/paper.tex takes OUT/tables/*.tex and OUT/figures/*.tex; figures are PDF, SVG and PNG, NAME.* as wide as a page and
 NAME_column.* as wide as one column; OUT/data has every number that is plotted or tabled, and manifest.json the checksum of every file.
 
-Exit codes: 0 written (what is wrong in a library is what the paper is for), 1 --check: a file is not what the records give,
+Exit codes: 0 written (what is wrong in a library is what the paper is for), 1 --check: a file is not what the records give
+or a finding is not shown again,
 2 bad usage or input, 3 stopped or out of time (written from what is there), 4 a run failed, LaTeX failed, or no room.
 """
 
@@ -213,7 +214,13 @@ def run(words):
     out = pathlib.Path(os.path.abspath(options.out))
     runs = out / "runs"
     if options.check:
-        return report(options, runs, out, "--check")
+        again = []
+        if os.access(options.ulpgate, os.X_OK):
+            again = ["--ulpgate", options.ulpgate]
+        else:
+            said = f"no program {options.ulpgate}: commands of findings are not run"
+            print(f"paper: {said}", file=sys.stderr)
+        return report(options, runs, out, "--check", *again)
     options.size = options.size or "quick"
     if options.list:
         types = types_of(options.ulpgate, options.types)

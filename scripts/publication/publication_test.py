@@ -99,6 +99,8 @@ def test_every_number_is_traced(small):
     done = run("--check", "--out", str(small), "--ulpgate", ULPGATE)
     assert done.returncode == 0, done.stderr
     assert "files are what the records give" in done.stdout
+    told = re.search(r"; (\d+) of (\d+) commands of findings show", done.stdout)
+    assert told and told[1] == told[2] != "0", done.stdout
     changed = small / "data" / "type_table.csv"
     before = changed.read_text()
     changed.write_text(before.replace("float", "double", 1))

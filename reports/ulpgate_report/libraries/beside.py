@@ -27,14 +27,15 @@ class Beside:
         return tuple(found)
 
 
+def without_symbol(implementation):
+    """The library alone: "libsleef.so.3.5.1" of "libsleef.so.3.5.1 Sleef_sin_u10"."""
+    # A function of a library ends with its symbol, this program's own with a version.
+    first, _, last = implementation.rpartition(" ")
+    return implementation if not first or last[0].isdigit() else first
+
+
 def library_of(records):
     """What most implementations of a run have in common: "libsleef.so.3.5.1", "glibc 2.36"."""
-
-    def without_symbol(name):
-        # A function of a library ends with its symbol, this program's own with a version.
-        first, _, last = name.rpartition(" ")
-        return name if not first or last[0].isdigit() else first
-
     counts = collections.Counter(without_symbol(r["implementation"]) for r in records)
     return counts.most_common(1)[0][0]
 

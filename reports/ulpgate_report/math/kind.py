@@ -5,6 +5,7 @@ from ulpgate_report.math import (
     figure_distributions,
     figure_error_vs_time,
     figure_heatmap,
+    reproducer,
     tables,
 )
 from ulpgate_report.page import page_views
@@ -65,6 +66,19 @@ def _oracles(combined):
     )
 
 
+def _largest(judged):
+    """The largest error that a number tells, after the count of those that none does."""
+    finite = [one for one in judged if one[1].max_ulp != numbers.INFINITE]
+    said = ""
+    if len(finite) < len(judged):
+        said = f"{len(judged) - len(finite):,} err by more ULP than a double can tell; "
+    if not finite:
+        return said.removesuffix("; ") + "."
+    (row, token), cell = max(finite, key=lambda one: one[1].max_ulp)
+    among = "of the others " if said else ""
+    return f"{said}the largest error {among}is {numbers.short_ulp(cell.max_ulp)} ULP, of {row.label} in {token}."
+
+
 def headline(combined):
     """What stands above everything."""
     cells = combined.cells.values()
@@ -75,14 +89,13 @@ def headline(combined):
         f"{sum(cell.samples for cell in cells):,} samples."
     )
     if judged:
-        (row, token), cell = max(judged, key=lambda one: one[1].max_ulp)
         # A result of the wrong kind is none that is rounded correctly, and has no part in the largest error.
         sound = [cell.max_ulp for _, cell in judged if not cell.mismatches]
         correct = sum(error <= 0.5 for error in sound)
         faithful = sum(error <= 1 for error in sound)
         said += (
             f" Of {len(judged):,} rows {correct:,} are rounded correctly at every sample and {faithful:,} err by at most 1 ULP; "
-            f"the largest error is {numbers.short_ulp(cell.max_ulp)} ULP, of {row.label} in {token}."
+            + _largest(judged)
         )
     return [(said + _oracles(combined), False)]
 
@@ -107,7 +120,9 @@ def _heat_view(combined):
         lambda cell: cell[2].max_ulp,
         lambda cell: _hover(*cell),
         heat_colours.ULP,
-        command=lambda cell: tables.command_of(cell[0], cell[1], cell[2].argmax)
+        command=lambda cell: reproducer.command_of(
+            combined.context, cell[0].function, cell[1], cell[2].argmax
+        )
         if cell[2].argmax
         else None,
         row=lambda cell: cell[0].label,

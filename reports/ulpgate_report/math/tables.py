@@ -1,4 +1,5 @@
 """What is tabled of the math functions: columns and rows, without any format."""
+from ulpgate_report.math import reproducer
 from ulpgate_report.math.combine import PAPER_STRATA
 from ulpgate_report.tables.table import Column, Marked, Table, columns_of
 from ulpgate_report.values import numbers, outcomes
@@ -41,11 +42,6 @@ def paper_table(combined):
         combined.paper_cells,
         lambda cell: cell.max_float_distance,
     )
-
-
-def command_of(row, token, argument):
-    """The command that shows everything about a function at an argument."""
-    return " ".join(("ulpgate at", row.function, token, *argument))
 
 
 def _limits(errors):
@@ -128,7 +124,7 @@ def worst_table(combined, most=8):
             token,
             cell.max_ulp,
             cell.stratum,
-            command_of(row, token, cell.argmax),
+            reproducer.command_of(combined.context, row.function, token, cell.argmax),
         )
         for row, token, cell in list(worst.values())[:most]
     ]

@@ -123,3 +123,26 @@ def test_the_largest_errors_come_first_with_their_commands():
     assert rows[0]["command"] in (
         f"ulpgate at {name} double 0x1.8p+1" for name in ("sin", "tan")
     )
+
+
+def test_the_headline_counts_errors_that_no_number_tells():
+    def change(record):
+        record.update(max_ulp=2.0)
+        if record["type"] == "double":
+            record.update(max_ulp="inf")
+        if record["type"] == "float128":
+            record.update(max_ulp=3e5)
+
+    ((said, _),) = kind.headline(combined_run(["sin"], change))
+    assert "; 1 err by more ULP than a double can tell; " in said
+    assert (
+        said.count("the largest error of the others is 3.00e5 ULP, of sin in float128.")
+        == 1
+    )
+    ((said, _),) = kind.headline(
+        combined_run(["sin"], lambda record: record.update(max_ulp="inf"))
+    )
+    assert (
+        f"{len(sample_records.TYPES)} err by more ULP than a double can tell." in said
+    )
+    assert "of the others" not in said

@@ -1,12 +1,15 @@
 """What is wrong in which library, from the records alone, each with the command that shows it."""
 from dataclasses import dataclass
 
-from ulpgate_report.math import tables as math_tables
+from ulpgate_report.libraries import beside
+from ulpgate_report.math import reproducer
 from ulpgate_report.records.pendulum_records import HALF_STEP, OWN_REFERENCE
 from ulpgate_report.values import numbers, outcomes
 
 # Below this an error of a function is no finding: libraries document no less.
 LARGE_ULP = 10.0
+# Where a paper has all of them.
+FILE = "data/findings.csv"
 MASS = "mass=yade"
 # At most so many of one library, the worst first; the table of all functions has the others.
 MOST = 12
@@ -21,6 +24,8 @@ class Finding:
     type: str
     says: str
     command: str
+    # What it computes: symbols of one function are told together.
+    function: str
     # What stands first in its library: real functions before special and complex ones, then the larger.
     order: tuple
 
@@ -48,7 +53,8 @@ def library_of(context, row, token):
     return _version(context, "Boost") + " (Multiprecision)"
 
 
-def _errs(error):
+def errs(error):
+    """What is said of a function with this largest error."""
     if error == numbers.INFINITE:
         return "errs by more ULP than a double can tell"
     return f"errs by {numbers.short_ulp(error)} ULP"
@@ -66,7 +72,7 @@ def _seen(cell):
     parts = []
     weight = 0.0
     if cell.max_ulp is not None and numbers.larger(cell.max_ulp, LARGE_ULP):
-        parts.append(_errs(cell.max_ulp))
+        parts.append(errs(cell.max_ulp))
         weight = float(min(cell.max_ulp, 1e300))
     for name, count in cell.mismatch.items():
         parts.append(f"{_word(name)} at {count} of {cell.samples} arguments")
@@ -74,14 +80,15 @@ def _seen(cell):
     return parts, weight
 
 
-def of_functions(combined, library=None):
-    """Findings of a run of functions; those of a `library` are called there, not by the program itself."""
-    first = {}
+def of_functions(combined):
+    """Findings of a run of functions; a function of another library is called by its symbol there."""
+    first, implementations = {}, {}
     for record in combined.records:
         key = (record["function"], record["part"], record["type"])
+        implementations[key] = record["implementation"]
         for name, args in record.get("mismatch_first", {}).items():
             if record["mismatch"].get(name):
-                first.setdefault(key, tuple(args))
+                first.setdefault((*key, name), tuple(args))
     found = []
     for (row, token), cell in combined.cells.items():
         parts, weight = _seen(cell)
@@ -89,14 +96,24 @@ def of_functions(combined, library=None):
             continue
         by_error = cell.max_ulp is not None and numbers.larger(cell.max_ulp, LARGE_ULP)
         args = cell.argmax if by_error else ()
-        args = args or first.get((row.function, row.part, token), ())
+        key = (row.function, row.part, token)
+        if not args:
+            # What happens at most of the arguments.
+            most = max(cell.mismatch, key=cell.mismatch.get)
+            args = first.get((*key, most), ())
+        library, subject = library_of(combined.context, row, token), row.label
+        if reproducer.options_of(combined.context, row.function, token):
+            library = beside.without_symbol(implementations[key])
+            subject = implementations[key].rpartition(" ")[2]
+        command = reproducer.command_of(combined.context, row.function, token, args)
         found.append(
             Finding(
-                library or library_of(combined.context, row, token),
-                row.label,
+                library,
+                subject,
                 token,
                 "; ".join(parts),
-                math_tables.command_of(row, token, args) if args else "",
+                command if args else "",
+                row.label,
                 (_CLASSES.index(row.function_class), -weight),
             )
         )
@@ -118,7 +135,7 @@ def of_claims(rows):
         error = numbers.measured(one["largest_ulp"])
         parts = []
         if error is not None and numbers.larger(error, one["claim_ulp"]):
-            parts.append(f"{_errs(error)} where {one['claim_ulp']:g} is documented")
+            parts.append(f"{errs(error)} where {one['claim_ulp']:g} is documented")
         parts += [f"{_word(m['outcome'])} {_at(m['count'])}" for m in one["mismatches"]]
         args = one["args"] if parts and parts[0].startswith("errs") else _first(one)
         library = one["implementation"].split()[0] if one["implementation"] else ""
@@ -130,10 +147,17 @@ def of_claims(rows):
                 one["type"],
                 "; ".join(parts),
                 f"{command} --library {library.rsplit('/', 1)[-1]} --symbol {one['symbol']}",
+                one["function"],
                 (0, -float(min(error or 0, 1e300))),
             )
         )
     return found
+
+
+def beyond(found, documented):
+    """Findings of functions without those of which a documented bound says the same."""
+    told = {(f.library, f.subject, f.type) for f in documented}
+    return [f for f in found if (f.library, f.subject, f.type) not in told]
 
 
 def _durations(pendulum):
@@ -164,6 +188,7 @@ def of_pendulum(pendulum):
                 f"takes 4/3 and pi in double on the way to the mass, in every type: at a step of {dt} s a run with that mass stays true to the "
                 f"same run in 150 digits (t_s) for {contaminated:.2f} s, one with the exact mass for {exact:.2f} s",
                 f"ulpgate scene ladder {scene} --types {token} --set {MASS}",
+                "mass",
                 (0, contaminated - exact),
             )
         )
@@ -171,14 +196,14 @@ def of_pendulum(pendulum):
 
 
 def by_library(findings):
-    """[(library, [findings of one subject, the worst first], how many subjects more)]."""
+    """[(library, [findings of one function, the worst first], how many functions more)]."""
     grouped = {}
     for one in findings:
         of = grouped.setdefault(one.library, {})
-        of.setdefault(one.subject, []).append(one)
+        of.setdefault(one.function, []).append(one)
     found = []
     for library, of in grouped.items():
-        subjects = [sorted(same, key=lambda f: f.order) for same in of.values()]
-        subjects.sort(key=lambda same: same[0].order)
-        found.append((library, subjects[:MOST], max(0, len(subjects) - MOST)))
+        functions = [sorted(same, key=lambda f: f.order) for same in of.values()]
+        functions.sort(key=lambda same: same[0].order)
+        found.append((library, functions[:MOST], max(0, len(functions) - MOST)))
     return found

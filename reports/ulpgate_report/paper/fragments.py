@@ -95,6 +95,10 @@ def figure(name, said, png, dots_per_inch):
     )
 
 
+def _symbol(name):
+    return rf"\texttt{{{table_latex.escape_code(name)}}}"
+
+
 def findings(by_library):
     """A list a library, each finding with its command."""
     lines = []
@@ -104,11 +108,16 @@ def findings(by_library):
         for same in found:
             worst = same[0]
             command = f" {tex_command(worst.command)}" if worst.command else ""
-            types = list(dict.fromkeys(one.type for one in same))
+            alike = [one for one in same if one.subject == worst.subject]
+            types = list(dict.fromkeys(one.type for one in alike))
             where = f"in {worst.type} " if len(types) > 1 else ""
+            others = dict.fromkeys(one.subject for one in same)
+            others.pop(worst.subject)
+            also = ", ".join(_symbol(one) for one in others)
+            also = f" Something of the kind: {also}." if also else ""
             lines.append(
-                rf"\item \texttt{{{table_latex.escape_code(worst.subject)}}} ({table_latex.escape(', '.join(types))}): "
-                rf"{table_latex.escape(where + worst.says)}.{command}"
+                rf"\item {_symbol(worst.subject)} ({table_latex.escape(', '.join(types))}): "
+                rf"{table_latex.escape(where + worst.says)}.{command}{also}"
             )
         if more:
             lines.append(rf"\item and {more} more, in \texttt{{data/findings.csv}}.")

@@ -158,41 +158,6 @@ def test_findings_name_the_library_and_the_command(paper):
     assert r"\input{findings.tex}" in (out / "paper.tex").read_text()
 
 
-def _claim(**changed):
-    found = {"function": "remainder", "type": "double", "symbol": "remainder"}
-    found |= {"implementation": "libm.so.6 remainder", "claim_ulp": 0.5}
-    found |= {
-        "arguments": 1000,
-        "largest_ulp": 0.0,
-        "args": ["0x1p+0"],
-        "holds": False,
-        "mismatches": [],
-    }
-    return found | changed
-
-
-def test_a_command_shows_what_is_wrong_and_not_the_largest_error():
-    wrong = [
-        {"outcome": "lane_dependent", "count": 2, "args": ["0x1p+9"]},
-        {"outcome": "zero_sign", "count": 1, "args": ["-0x1p-3"]},
-    ]
-    (found,) = findings.of_claims([_claim(mismatches=wrong)])
-    assert found.says == (
-        "gives another result beside other lanes at 2 arguments; gives a zero with the wrong sign at 1 argument"
-    )
-    assert found.command.startswith("ulpgate at remainder double -0x1p-3 --library")
-    (found,) = findings.of_claims([_claim(mismatches=wrong, largest_ulp=3.0)])
-    assert found.says.startswith("errs by 3.00 ULP where 0.5 is documented; gives")
-    assert " 0x1p+0 --library" in found.command
-
-
-def test_claims_say_where_they_are_made():
-    domains = [[-709.0, 709.0]], [], [[None, 26.2]], [[1.0, None]]
-    found = tables.claims([_claim(domain=domain) for domain in domains])
-    told = ["-709, 709", None, "-inf, 26.2", "1, inf"]
-    assert [row[3] for row in found.rows] == told
-
-
 def test_other_libraries_have_their_findings():
     context = sample_records.context(["sin"])
     run = combine.combine_run(
@@ -201,7 +166,6 @@ def test_other_libraries_have_their_findings():
     beside = Beside(("glibc", "musl"), (run, run))
     found = write.libraries_of({kind_libraries: beside})
     assert found == [("musl", run)]
-    assert {f.library for f in findings.of_functions(run, "musl")} <= {"musl"}
 
 
 def test_samples_are_those_of_a_stratum():
@@ -228,7 +192,7 @@ def test_a_contaminated_constant_is_a_finding():
 
 def test_subjects_are_grouped_and_real_functions_stand_first():
     made = [
-        findings.Finding("glibc 2.36", subject, token, "errs", "c", order)
+        findings.Finding("glibc 2.36", subject, token, "errs", "c", subject, order)
         for subject, token, order in (
             ("cpow re", "float", (2, -1e9)),
             ("cpow re", "double", (2, -1e12)),

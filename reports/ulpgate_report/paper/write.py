@@ -168,20 +168,25 @@ def libraries_of(data):
 
 
 def _write_findings(writer, runs, sources):
+    documented = []
+    for rows in source.claims(runs).values():
+        documented += findings.of_claims(rows)
     found = []
     for one in sources:
         data = dict(one.parts)
-        for label, run in libraries_of(data):
-            found += findings.of_functions(run, label)
+        for _, run in libraries_of(data):
+            found += findings.beyond(findings.of_functions(run), documented)
         if kind_math in data:
             found += findings.of_functions(data[kind_math])
         if kind_pendulum in data:
             found += findings.of_pendulum(data[kind_pendulum])
-    for rows in source.claims(runs).values():
-        found += findings.of_claims(rows)
+    found += documented
+    # Commands are run where the records stand: a worker that was built there has the same name wherever that is.
+    here = f"{runs.resolve()}/"
+    found = [dataclasses.replace(f, command=f.command.replace(here, "")) for f in found]
     columns = ("library", "subject", "type", "says", "command")
     rows = [(f.library, f.subject, f.type, f.says, f.command) for f in found]
-    writer.text("data/findings.csv", _csv(columns, rows))
+    writer.text(findings.FILE, _csv(columns, rows))
     writer.text("findings.tex", fragments.findings(findings.by_library(found)))
     return found
 
@@ -215,7 +220,7 @@ def write(runs, out, history=None, tell=lambda _: None):
     if found:
         says = (
             f"{len(found)} findings from the records above, a function in a type each: results of the wrong kind, errors beyond {findings.LARGE_ULP:g} ULP, "
-            "documented bounds that do not hold, and constants of too few digits; types of one function are told together, with the command that shows "
+            "documented bounds that do not hold, and constants of too few digits; types and symbols of one function are told together, with the command that shows "
             "the worst. Some errors are what a library promises and no more; none is what a user expects."
         )
         chapters.append(("Findings", says, ["findings.tex"]))

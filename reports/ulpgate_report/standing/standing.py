@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from ulpgate_report.kernels import combine as combine_kernels
 from ulpgate_report.math import combine as combine_math
+from ulpgate_report.math import reproducer
 from ulpgate_report.records.errors import InvalidInput
 from ulpgate_report.values import numbers
 
@@ -94,14 +95,22 @@ def load_gate(path):
 
 
 def _cells(run):
-    """{(row, type): (largest error, wrong kinds, argument)} of functions and kernels."""
+    """{(row, type): (largest error, wrong kinds, command or None)} of functions and kernels."""
     found = {}
+
+    def shown(key, args):
+        row, token = key
+        if not args:
+            return None
+        return reproducer.command_of(run.context, row.function, token, args)
+
     if run.math:
         for key, cell in combine_math.combine_run(run).cells.items():
-            found[key] = (cell.max_ulp, cell.mismatches, cell.argmax)
+            found[key] = (cell.max_ulp, cell.mismatches, shown(key, cell.argmax))
     if run.kernels:
         for key, cell in combine_kernels.combine_run(run).cells.items():
-            found[key] = (cell.max_ulp, cell.mismatches, cell.normwise_argmax)
+            command = shown(key, cell.normwise_argmax)
+            found[key] = (cell.max_ulp, cell.mismatches, command)
     return found
 
 
@@ -127,8 +136,6 @@ def _changes(old, new):
             change = NEW if after else GONE
         if change is None:
             continue
-        args = (after or before)[2]
-        command = " ".join(("ulpgate at", row.function, token, *args))
         found.append(
             Change(
                 row.label,
@@ -138,7 +145,7 @@ def _changes(old, new):
                 after and after[0],
                 before[1] if before else 0,
                 after[1] if after else 0,
-                command if args else None,
+                (after or before)[2],
             )
         )
     order = (WORSE, GONE, NEW, BETTER)
