@@ -39,7 +39,10 @@ def _machine_view(context):
     ]
     parts = [context.get("cpu"), ", ".join(named), context.get("compiler")]
     if "seed" in context:
-        parts.append(f"seed {context['seed']}")
+        seed = context["seed"]
+        # Of several runs each has its own; most have the same.
+        seeds = dict.fromkeys(seed.values() if isinstance(seed, dict) else [seed])
+        parts.append("seed " + ", ".join(str(one) for one in seeds))
     return "; ".join(part for part in parts if part)
 
 

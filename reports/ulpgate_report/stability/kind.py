@@ -36,9 +36,9 @@ def headline(stress):
     cases = len(stress.of_kind(None))
     text = f"{cases:,} stiff and extreme cases, {len(found):,} runs: "
     text += ", ".join(f"{count:,} {words}" for words, count in counts if count)
-    return [(f"{text};", False), (f"{new:,}" if new else "none", bool(new))] + [
-        ("not as known.", False)
-    ]
+    if not new:
+        return [(f"{text}; all as known.", False)]
+    return [(f"{text};", False), (f"{new:,}", True), ("not as known.", False)]
 
 
 def anchors(stress):
