@@ -278,3 +278,27 @@ def test_names_with_every_kind_of_character_survive(place, tmp_path):
     log = json.loads(files["sarif"].read_text())
     assert log["runs"][0]["results"][0]["properties"]["records"] == str(odd)
     assert files["markdown"].read_text().count("\n1. ") == 1
+
+
+def test_what_the_same_argument_shows_is_told_together(place, tmp_path):
+    _, _, text, _ = gate(place, tmp_path, "records", "red")
+    groups = []
+    for line in text.splitlines():
+        if line.startswith("FAIL "):
+            row = line.split(":")[0].split(maxsplit=1)[1]
+            if not groups or groups[-1]["details"] and row != groups[-1]["row"]:
+                groups.append({"row": row, "limits": [], "details": []})
+            groups[-1]["limits"].append(line)
+        elif "   reproduce: " in line:
+            # Its first limit alone is followed by what shows it.
+            if groups[-1]["details"]:
+                last = groups[-1]["limits"].pop()
+                groups.append({"row": row, "limits": [last], "details": []})
+            groups[-1]["details"].append(line.strip())
+    assert all(len(group["details"]) == 1 for group in groups)
+    shown = [(group["row"], group["details"][0]) for group in groups]
+    assert len(set(shown)) == len(shown)
+    together = [group["limits"] for group in groups if len(group["limits"]) > 1]
+    assert together
+    for first, *_ in together:
+        assert "maximum error" in first

@@ -1,6 +1,7 @@
 // What the gate prints.
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "harness/app/gate_output/output_text.hpp"
@@ -30,6 +31,35 @@ Paint paint_of(FindingKind kind) {
   return note ? Paint::note : Paint::bad;
 }
 
+// Lines that show a finding again; of what needs none: "".
+std::string details_text(const GateFinding& f) {
+  if (f.kind == FindingKind::could_lower) return "";
+  std::string text;
+  for (const auto& [name, value] : details_of(f)) text += fmt::format("{:<12}   {}: {}\n", "", name, value);
+  return text;
+}
+
+// Places in `all` of findings that the same argument of the same row shows, in the order of the worst of
+// each; a group begins with its largest error, if it has one.  A function that is wrong by much is beyond a
+// dozen limits at once.
+std::vector<std::vector<std::size_t>> shown_together(const std::vector<PlacedFinding>& all) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::map<std::string, std::size_t> known;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [result, f] = all[i];
+    const std::string details = details_text(*f);
+    const auto [group, fresh] = known.try_emplace(
+        fmt::format("{}\n{}\n{}\n{}", result->records_directory, f->row, f->type, details), groups.size());
+    if (fresh || details.empty()) {
+      groups.push_back({i});
+    } else {
+      auto& places = groups[group->second];
+      places.insert(f->what.starts_with("maximum") ? places.begin() : places.end(), i);
+    }
+  }
+  return groups;
+}
+
 Json number_or_null(const std::optional<double>& x) {
   return x ? Json(*x) : Json(nullptr);
 }
@@ -37,17 +67,19 @@ Json number_or_null(const std::optional<double>& x) {
 }  // namespace
 
 std::string text_report(const std::vector<GateResult>& results) {
+  const std::vector<PlacedFinding> all = with_notes(results);
   std::string text;
   std::size_t not_measured = 0;
-  for (const auto& [result, f] : with_notes(results)) {
-    // Records of a few functions held to the budgets of all: a line each would bury what failed.
-    if (f->kind == FindingKind::missing_record && ++not_measured > most_not_measured) continue;
-    const std::string of = results.size() > 1 ? fmt::format(" [{}]", result->records_directory) : "";
-    const std::string label = painted(paint_of(f->kind), fmt::format("{:<12}", label_of(f->kind)));
-    text += fmt::format("{} {} {}: {}{}\n", label, f->row, f->type, f->message, of);
-    if (f->kind == FindingKind::could_lower) continue;
-    for (const auto& [name, value] : details_of(*f))
-      text += fmt::format("{:<12}   {}: {}\n", "", name, value);
+  for (const auto& group : shown_together(all)) {
+    for (const std::size_t i : group) {
+      const auto& [result, f] = all[i];
+      // Records of a few functions held to the budgets of all: a line each would bury what failed.
+      if (f->kind == FindingKind::missing_record && ++not_measured > most_not_measured) continue;
+      const std::string of = results.size() > 1 ? fmt::format(" [{}]", result->records_directory) : "";
+      const std::string label = painted(paint_of(f->kind), fmt::format("{:<12}", label_of(f->kind)));
+      text += fmt::format("{} {} {}: {}{}\n", label, f->row, f->type, f->message, of);
+      if (i == group.front()) text += details_text(*f);
+    }
   }
   if (not_measured > most_not_measured)
     text += fmt::format("{:<12} {} rows more; --only-measured holds what was measured to its budgets alone\n",
