@@ -301,3 +301,9 @@ def test_speeds_need_a_run_beside_them(tmp_path):
     )
     with pytest.raises(source.NothingMeasured):
         source.load(tmp_path)
+
+
+def test_how_many_commands_there_are_is_no_command():
+    assert provenance.in_code("ulpgate math --out a") == "`ulpgate math --out a`"
+    more = provenance.in_code("ulpgate math --out a and 4 more in commands.json")
+    assert more == "`ulpgate math --out a` and 4 more in `commands.json`"

@@ -1,9 +1,12 @@
 """What a caption says of the run that its numbers come from: samples, seed, strata, machine, libraries, command."""
 import json
+import re
 
 from ulpgate_report.records.errors import InvalidInput
 
 COMMANDS = "commands.json"
+# Of a run of several commands the runner notes the first, how many more there are, and where.
+_MORE = re.compile(r"(.*?)(?:( and \d+ more in )(\S+))?", re.DOTALL)
 _SHARING = {"uniform", "stratified"}
 _OF_FUNCTIONS = _SHARING | {"binades", "narrow", "edges", "hard", "worst", "exhaustive"}
 # Of all that a context names, what decides the last bits of a result.
@@ -86,10 +89,16 @@ def arguments(context):
     return ", ".join(found)
 
 
+def in_code(command):
+    """A command as captions mark it; how many more there are is no part of it."""
+    first, more, file = _MORE.fullmatch(command).groups()
+    return f"`{first}`" + (f"{more}`{file}`" if more else "")
+
+
 def sentence(context, command):
     """All of it, for the end of a caption."""
     parts = [arguments(context), machine(context)]
     said = "; ".join(filter(None, parts))
     return (f" Made with: {said}." if said else "") + (
-        f" Command: `{command}`." if command else ""
+        f" Command: {in_code(command)}." if command else ""
     )

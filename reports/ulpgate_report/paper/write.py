@@ -198,7 +198,8 @@ def _write_claims(writer, runs, commands):
         name = f"claims_{library}"
         said = f" {library}."
         if f"claims/{library}" in commands:
-            said += f" Command: `{commands[f'claims/{library}']}`."
+            command = provenance.in_code(commands[f"claims/{library}"])
+            said += f" Command: {command}."
         renamed = dataclasses.replace(table, name=name)
         inputs.append(_write_table(writer, renamed, said, ""))
     return inputs
