@@ -148,6 +148,16 @@ box.closest('details').open = true;
 box.scrollLeft = 200;
 return document.querySelector('#long_table td').getBoundingClientRect().left - box.getBoundingClientRect().left"""
     assert 0 <= browser.execute_script(left) < 4
+    # Short ones are not broken.
+    broken = """
+const lines = (e) => {
+  const all = document.createRange();
+  all.selectNodeContents(e);
+  return all.getClientRects().length;
+};
+return [...document.querySelectorAll('.data td:first-child code')].filter(
+  (e) => e.textContent.length < 15 && lines(e) > 1).map((e) => e.textContent)"""
+    assert browser.execute_script(broken) == []
     # A long one leaves room for them.
     name = """
 const cell = document.querySelector('#long_table td');

@@ -24,6 +24,23 @@ def printed(standing):
     return [table for table in made if table.rows]
 
 
+def _failed(standing):
+    """What the gate holds against the run; rows that were not judged are no failures of the code."""
+    failures = standing.failures
+    by_kind = {}
+    for one in failures:
+        by_kind[one["kind"]] = by_kind.get(one["kind"], 0) + 1
+    counts = ", ".join(f"{kind.lower()} {count:,}" for kind, count in by_kind.items())
+    first = failures[0]
+    shown = f"{first['function']} {first['type']}: {first['message']}"
+    many = "s" * (len(failures) > 1)
+    if standing.wrong:
+        text = f"FAILED: {len(failures):,} finding{many} ({counts})."
+        return [(text, True), (f"The worst: {shown}", False)]
+    text = f"NOT PASSED: nothing that was judged failed, and {len(failures):,} row{many} could not be judged ({counts})."
+    return [(text, True), (f"The first: {shown}", False)]
+
+
 def _verdict(standing):
     if standing.gate is None:
         return [("Not held to budgets.", False)]
@@ -42,15 +59,7 @@ def _verdict(standing):
     if not failures:
         text = f"PASSED: all {standing.rows:,} rows are within their budgets."
         return [(text + known * bool(wrong), False)]
-    by_kind = {}
-    for one in failures:
-        by_kind[one["kind"]] = by_kind.get(one["kind"], 0) + 1
-    counts = ", ".join(f"{kind.lower()} {count:,}" for kind, count in by_kind.items())
-    worst = failures[0]
-    many = "s" * (len(failures) > 1)
-    text = f"FAILED: {len(failures):,} finding{many} ({counts})."
-    said = f"The worst: {worst['function']} {worst['type']}: {worst['message']}"
-    return [(text, True), (said, False)]
+    return _failed(standing)
 
 
 def _since(standing):

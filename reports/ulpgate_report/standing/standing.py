@@ -10,6 +10,8 @@ from ulpgate_report.values import numbers
 
 # A finding of this kind is no failure: a limit that could be lower.
 _NOTES = ("note",)
+# And these say that a row was not judged, not that it is wrong.
+_UNJUDGED = ("another plan", "no budget", "not measured", "incomplete")
 _FIELDS = ("kind", "function", "type", "message")
 WORSE, BETTER, NEW, GONE = "worse", "better", "new", "gone"
 
@@ -54,6 +56,11 @@ class Standing:
         """What the gate holds against the run."""
         findings = self.gate.findings if self.gate else ()
         return [f for f in findings if f["kind"].lower() not in _NOTES]
+
+    @property
+    def wrong(self):
+        """Those of the failures that were judged."""
+        return [f for f in self.failures if f["kind"].lower() not in _UNJUDGED]
 
     def of_change(self, change):
         """The changes of one sort."""

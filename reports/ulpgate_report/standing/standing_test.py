@@ -20,6 +20,8 @@ FINDING = {
     "budget": 0.516,
     "reproduce": "ulpgate at sin double 0x1p0",
 }
+UNMEASURED = {**FINDING, "kind": "NOT MEASURED", "message": "budgeted but not measured"}
+ANOTHER_PLAN = {**FINDING, "kind": "ANOTHER PLAN", "message": "1000 points of seed 1"}
 NOTE = {**FINDING, "kind": "note", "message": "could be 0.4"}
 
 
@@ -71,9 +73,28 @@ def test_nothing_is_said_where_nothing_was_asked(tmp_path):
         ((), "PASSED: all", False),
         ((NOTE,), "PASSED: all", False),
         ((FINDING, NOTE), "FAILED: 1 finding (fail 1).", True),
+        ((FINDING, UNMEASURED), "FAILED: 2 findings (fail 1, not measured 1).", True),
+        (
+            (UNMEASURED, UNMEASURED),
+            "NOT PASSED: nothing that was judged failed, and 2 rows could not be judged (not measured 2).",
+            True,
+        ),
+        (
+            (ANOTHER_PLAN,),
+            "NOT PASSED: nothing that was judged failed, and 1 row could not be judged (another plan 1).",
+            True,
+        ),
         (None, "Not held to budgets.", False),
     ],
-    ids=["clean", "a limit that could be lower", "a failure", "no gate"],
+    ids=[
+        "clean",
+        "a limit that could be lower",
+        "a failure",
+        "a failure and a row without records",
+        "rows without records",
+        "another plan",
+        "no gate",
+    ],
 )
 def test_the_verdict_stands_first(tmp_path, gate, first, alert):
     loaded = None if gate is None else _loaded(tmp_path, *gate)

@@ -26,7 +26,7 @@ def gate_findings(standing):
         *columns_of("real", measured="measured", budget="budget"),
         Column("command", "shown by", "command"),
     )
-    caption = "Rows that are not within their budgets, the worst first."
+    caption = "Rows that are not within their budgets, or could not be judged, the worst first."
     return Table("gate_findings", caption, columns, tuple(rows))
 
 
