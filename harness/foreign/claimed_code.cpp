@@ -14,8 +14,7 @@ namespace ulpgate {
 
 namespace {
 
-// A type of the C library with many more bits than Real, whose functions rounded to Real are right but for
-// ties.
+// A type with many more bits than Real, whose functions rounded to Real are right but next to ties.
 template <class Real>
 struct WiderOf {
   using type = void;
@@ -105,13 +104,26 @@ class ClaimedCode final : public BatchCode {
     for (const auto i : points) replace_within_floor(x + i * arity, y[i]);
   }
 
+  // Whether all numbers within `bound` ulp of W from `value` are one in Real.  A zero may be a small number.
+  template <class W>
+  [[nodiscard]] static bool rounds_to_one(W value, double bound) {
+    if (!(bound >= 0) || value == 0) return false;
+    if (value - value != 0) return true;
+    const W slack = slack_of(value, bound);
+    return static_cast<Real>(value - slack) == static_cast<Real>(value + slack);
+  }
+  // The error of `value`, with two ulp more for what is computed with it here.
+  template <class W>
+  [[nodiscard]] static W slack_of(W value, double bound) {
+    using L = std::numeric_limits<W>;
+    return (static_cast<W>(bound) + 2) * (std::fabs(value) * L::epsilon() + L::denorm_min());
+  }
+
   // False where `value` and its bound in ulp of its type do not tell.
   template <class W>
   [[nodiscard]] bool settle_within_floor(Real& y, W value, double bound) const {
     if (!(bound >= 0) || value - value != 0 || !std::isfinite(y)) return false;
-    using L = std::numeric_limits<W>;
-    // Two ulp more for the difference and for what is set off here.
-    const W slack = (static_cast<W>(bound) + 2) * (std::fabs(value) * L::epsilon() + L::denorm_min());
+    const W slack = slack_of(value, bound);
     const W error = std::fabs(static_cast<W>(y) - value);
     const auto floor = static_cast<W>(bounds_.floor);
     const W margin = slack + floor * static_cast<W>(0x1p-40);
@@ -157,11 +169,9 @@ class ClaimedCode final : public BatchCode {
       if (const auto function = bounded_function<Wide>(function_.id); function != nullptr) {
         const auto [values, error] = wide_values(function, x, points);
         for (std::size_t p = 0; p < points.size(); ++p) {
-          // Where little is known of it, or its zero may be a small number.
-          constexpr double trusted = 64;
-          const bool known = error[p] >= 0 && error[p] <= trusted && values[p] != 0;
-          y[points[p]] =
-              known ? static_cast<Real>(values[p]) : from_mpfr<Real>(exact(x + points[p] * arity).get());
+          y[points[p]] = rounds_to_one(values[p], error[p])
+                             ? static_cast<Real>(values[p])
+                             : from_mpfr<Real>(exact(x + points[p] * arity).get());
         }
         return;
       }

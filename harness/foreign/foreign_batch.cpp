@@ -22,6 +22,8 @@ constexpr std::uint8_t threw_of(Outcome o) {
 // Larger batches are those of exhaustive runs, where the second evaluation is of one point in so many.
 constexpr std::size_t whole_again = 2048;
 constexpr std::size_t stride_again = 16;
+// Of scalar functions, which have no lanes to be at fault and take longer.
+constexpr std::size_t scalar_stride_again = 64;
 // Lanes whose neighbours are replaced by numbers that vector code likes least, in a batch.
 constexpr std::size_t lanes_again = 16;
 // A call that hangs costs its timeout: more than this in a batch is no run.
@@ -66,9 +68,9 @@ bool is_nan(const unsigned char* value, char element) {
 
 // One behind the other, with none left out.
 bool side_by_side(std::span<const std::uint32_t> points) {
-  for (std::size_t slot = 1; slot < points.size(); ++slot)
-    if (points[slot] != points[0] + slot) return false;
-  return true;
+  // Orders are those of the batch or turned round: two and the ends tell.
+  if (points.size() < 2) return true;
+  return points[1] == points[0] + 1 && points.back() - points.front() == points.size() - 1;
 }
 
 std::vector<std::uint32_t> all_of(std::size_t count) {
@@ -83,20 +85,23 @@ bool ForeignBatch::run() {
   const std::size_t count = troubles_.size();
   const std::size_t size = call_.size();
   // Kept by the thread: pages of a fresh one would cost more than the calls.
+  thread_local std::vector<std::uint32_t> in_order;
   thread_local std::vector<std::uint32_t> order;
-  order.resize(count);
-  std::iota(order.begin(), order.end(), 0U);
-  evaluate_all(order, [&](Points points, const unsigned char* from, std::size_t stride) {
-    // The first pass is in order, and most functions have one result.
-    if (stride == size && side_by_side(points)) {
-      std::memcpy(&values_[points.front() * size], from, points.size() * size);
-      return;
-    }
-    for (std::size_t slot = 0; slot < points.size(); ++slot)
-      std::memcpy(&values_[points[slot] * size], from + slot * stride, size);
-  });
+  for (std::size_t i = in_order.size(); i < count; ++i) in_order.push_back(static_cast<std::uint32_t>(i));
+  evaluate_all(Points(in_order).first(count),
+               [&](Points points, const unsigned char* from, std::size_t stride) {
+                 // The first pass is in order, and most functions have one result.
+                 if (stride == size && side_by_side(points)) {
+                   std::memcpy(&values_[points.front() * size], from, points.size() * size);
+                   return;
+                 }
+                 for (std::size_t slot = 0; slot < points.size(); ++slot)
+                   std::memcpy(&values_[points[slot] * size], from + slot * stride, size);
+               });
   // What gave a value once more, in another order and in other lanes.
-  const std::size_t stride = count > whole_again ? stride_again : 1;
+  const std::size_t stride = count <= whole_again ? 1
+                             : call_.lanes() > 1  ? stride_again
+                                                  : scalar_stride_again;
   order.clear();
   for (std::size_t i = 0; i < count; i += stride)
     if (troubles_[i] == 0) order.push_back(static_cast<std::uint32_t>(i));

@@ -1,16 +1,10 @@
 // Native functions as cheap references.
 #include "reference/native/native_functions.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
 #include <type_traits>
 
-#include "reference/native/large_angles.hpp"
-#include "reference/native/vector_functions.hpp"
+#include "reference/double_lanes/double_lanes.hpp"
 
 #ifdef ULPGATE_HAVE_FLOAT128
 #include <quadmath.h>
@@ -21,8 +15,29 @@ namespace ulpgate {
 namespace {
 
 // Bounds in ulp of the type; negative: not trusted.
+constexpr double bound_in_binary64(FunctionId id) {
+  switch (id) {
+    case FunctionId::add:
+    case FunctionId::sub:
+    case FunctionId::mul:
+    case FunctionId::div:
+    case FunctionId::fma:
+      return 0.5;
+    case FunctionId::fmod:
+    case FunctionId::remainder:
+    case FunctionId::logb:
+      return 0;
+    case FunctionId::hypot:
+      return 8;
+    case FunctionId::atan2:
+    case FunctionId::pow:
+      return 4;
+    default:
+      return -1;
+  }
+}
+
 struct Bounds {
-  double binary64;
   double x87_extended;
   double binary128;
 };
@@ -34,79 +49,75 @@ constexpr Bounds bounds_of(FunctionId id) {
     case FunctionId::mul:
     case FunctionId::div:
     case FunctionId::fma:
-      return {0.5, 0.5, 0.5};
+      return {0.5, 0.5};
     case FunctionId::sqrt:
-      return {0.5, 0.5, 2};
+      return {0.5, 2};
     case FunctionId::fmod:
     case FunctionId::remainder:
     case FunctionId::logb:
-      return {0, 0, 0};
+      return {0, 0};
     case FunctionId::cbrt:
-      return {16, 1.75, 8};
+      return {1.75, 8};
     case FunctionId::hypot:
-      return {8, 1.25, 16};
+      return {1.25, 16};
     case FunctionId::sin:
     case FunctionId::cos:
-      return {4, 2.5, 16};
+      return {2.5, 16};
     case FunctionId::tan:
-      return {4, 3.25, 16};
+      return {3.25, 16};
     case FunctionId::sinh:
     case FunctionId::cosh:
-      return {16, 4, 16};
+      return {4, 16};
     case FunctionId::tanh:
-      return {16, 5, 16};
+      return {5, 16};
     case FunctionId::asin:
-      return {4, 2, 16};
+      return {2, 16};
     case FunctionId::acos:
-      return {4, 2.25, 16};
+      return {2.25, 16};
     case FunctionId::atan:
     case FunctionId::atan2:
-      return {4, 1.5, 16};
+      return {1.5, 16};
     case FunctionId::asinh:
     case FunctionId::acosh:
-      return {16, 5, 24};
+      return {5, 24};
     case FunctionId::atanh:
-      return {16, 5.5, 24};
+      return {5.5, 24};
     case FunctionId::log:
-      return {4, 1.75, 8};
+      return {1.75, 8};
     case FunctionId::log10:
-      return {8, 2.75, 16};
+      return {2.75, 16};
     case FunctionId::log2:
-      return {4, 1.25, 16};
+      return {1.25, 16};
     case FunctionId::log1p:
-      return {8, 3, 16};
+      return {3, 16};
     case FunctionId::exp:
     case FunctionId::exp2:
-      return {4, 2.25, 8};
+      return {2.25, 8};
     case FunctionId::expm1:
-      return {8, 3.5, 16};
+      return {3.5, 16};
     case FunctionId::pow:
-      return {4, 3.75, 128};
+      return {3.75, 128};
     case FunctionId::erf:
-      return {8, 1.5, 16};
+      return {1.5, 16};
     case FunctionId::erfc:
-      return {32, 5.5, 32};
+      return {5.5, 32};
     case FunctionId::tgamma:
-      return {64, 14, 64};
+      return {14, 64};
     case FunctionId::lgamma:
-      return {64, 8, 64};
+      return {8, 64};
     default:
-      return {-1, -1, -1};
+      return {-1, -1};
   }
 }
 
-// In ulp, by libmvec's documentation.
-constexpr double vector_bound = 4;
-
 template <class W>
 constexpr double bound_of(FunctionId id) {
-  const Bounds bounds = bounds_of(id);
   if constexpr (std::is_same_v<W, double>) {
-    return bounds.binary64;
+    return bound_in_binary64(id);
   } else if constexpr (std::is_same_v<W, long double>) {
-    return bounds.x87_extended;
+    return bounds_of(id).x87_extended;
   } else {
-    return bounds.binary128;
+    return bounds_of(id).binary128;
   }
 }
 
@@ -163,49 +174,16 @@ double bound_of_sum(W sum, W a, W b) {
   return sum - a == b && sum - b == a ? 0 : 0.5;
 }
 
-// Of a function whose bound depends on where it is, for the result at x.
+// Of a function whose bound depends on where it is.
 template <FunctionId Id, class W>
-double bound_at(W x, W result) {
+double bound_at([[maybe_unused]] W x) {
   using enum FunctionId;
   if constexpr (Id == sin || Id == cos || Id == tan) {
-    const W size = x < 0 ? -x : x;
-    if constexpr (std::is_same_v<W, double>) {
-      // The error of the argument reduction is absolute: it shows next to multiples of pi/2 alone.
-      const W result_size = result < 0 ? -result : result;
-      if (size > 0x1p20) return result_size > 0x1p-20 && result_size < 0x1p20 ? 16 : 0x1p19;
-    } else if constexpr (digits_of<W> == 113) {
-      if (size > 0x1p62) return -1;
+    if constexpr (digits_of<W> == 113) {
+      if (x > 0x1p62 || x < -0x1p62) return -1;
     }
   }
   return bound_of<W>(Id);
-}
-
-// The gamma functions of binary64 where a short formula does: a tenth of the library's time, for nine of ten
-// binary32 numbers.
-// Negative numbers of 24 bits from here on are integers, poles of both.
-constexpr double poles_below = -0x1p23;
-constexpr double gamma_series_below = 0x1p-27;
-
-std::optional<double> short_tgamma(double x, int argument_bits) {
-  // 1/x - gamma + O(x), DLMF 5.7.1; the next term is x^2 of the first.
-  if (std::fabs(x) < gamma_series_below) return 1 / x - std::numbers::egamma;
-  if (x > 171.7) return std::numeric_limits<double>::infinity();
-  if (x <= poles_below && argument_bits <= 24) return std::numeric_limits<double>::quiet_NaN();
-  return std::nullopt;
-}
-
-std::optional<double> short_lgamma(double x, int argument_bits) {
-  if (std::fabs(x) < gamma_series_below) return -std::log(std::fabs(x)) - std::numbers::egamma * x;
-  // Stirling's series, DLMF 5.11.1; the first term left out is 1/(1680 x^7).
-  if (x >= 64 && x < 0x1p1000) {
-    constexpr double half_log_two_pi = 0x1.d67f1c864beb5p-1;
-    const double r = 1 / x;
-    const double s = r * r;
-    return (x - 0.5) * std::log(x) - x +
-           (half_log_two_pi + r * (1.0 / 12 - s * (1.0 / 360 - s * (1.0 / 1260))));
-  }
-  if (x <= poles_below && argument_bits <= 24) return std::numeric_limits<double>::infinity();
-  return std::nullopt;
 }
 
 // One point; returns the bound of its error.
@@ -230,10 +208,6 @@ double evaluate(const W* a, W& result, int argument_bits) {
     const W product = a[0] * a[1];
     result = product + a[2];
     return products_are_exact ? bound_of_sum<W>(result, product, a[2]) : -1;
-  } else if constexpr (Id == tgamma && std::is_same_v<W, double>) {
-    const std::optional<double> value = short_tgamma(a[0], argument_bits);
-    result = value ? *value : Library<Id>::call(a);
-    return bound_of<W>(Id);
   } else if constexpr (Id == lgamma) {
     // libquadmath's is only absolutely accurate next to the zeros between its poles.
     if constexpr (digits_of<W> == 113) {
@@ -241,10 +215,7 @@ double evaluate(const W* a, W& result, int argument_bits) {
     }
     // The C library's own notes the sign in a variable that all threads share.
     int sign = 0;
-    if constexpr (std::is_same_v<W, double>) {
-      const std::optional<double> value = short_lgamma(a[0], argument_bits);
-      result = value ? *value : ::lgamma_r(a[0], &sign);
-    } else if constexpr (std::is_same_v<W, long double>) {
+    if constexpr (std::is_same_v<W, long double>) {
       result = ::lgammal_r(a[0], &sign);
     } else {
       result = Library<Id>::call(a);
@@ -252,7 +223,7 @@ double evaluate(const W* a, W& result, int argument_bits) {
     return bound_of<W>(Id);
   } else {
     result = Library<Id>::call(a);
-    return bound_at<Id, W>(a[0], result);
+    return bound_at<Id, W>(a[0]);
   }
 }
 
@@ -263,72 +234,16 @@ void evaluate_batch(const W* args, W* results, double* bounds, std::size_t count
     bounds[i] = evaluate<Id, W>(args + i * arity, results[i], argument_bits);
 }
 
-// Several points at once.
-template <FunctionId Id>
-void evaluate_vectors(const double* args, double* results, double* bounds, std::size_t count, int) {
-  static const VectorFunction function = vector_function(Id);
-  function(args, results, count);
-  for (std::size_t i = 0; i < count; ++i)
-    bounds[i] = std::max(2 * vector_bound, bound_at<Id, double>(args[i], results[i]));
-}
-
-// f(x) from f's base function, sin or tan, at an angle y that is exact to 2 ulp: x = n pi/2 + r.
-template <FunctionId Id>
-double base_angle(double r, unsigned quadrant) {
-  // cos x = sin (x + pi/2); an odd quadrant makes of the sine a cosine, which is that of the complement.
-  const bool odd = ((Id == FunctionId::cos ? quadrant + 1 : quadrant) & 1U) != 0;
-  return odd && Id != FunctionId::tan ? std::numbers::pi / 2 - std::fabs(r) : r;
-}
-template <FunctionId Id>
-double from_base(double value, unsigned quadrant) {
-  const unsigned n = Id == FunctionId::cos ? quadrant + 1 : quadrant;
-  if constexpr (Id == FunctionId::tan) return (n & 1U) != 0 ? -1 / value : value;
-  return (n & 2U) != 0 ? -value : value;
-}
-
-template <FunctionId Id>
-void evaluate_angles(const double* args, double* results, double* bounds, std::size_t count,
-                     int argument_bits) {
-  static const VectorFunction base = vector_function(Id == FunctionId::tan ? Id : FunctionId::sin);
-  constexpr std::size_t most = 256;
-  for (std::size_t first = 0; first < count; first += most) {
-    const std::size_t n = std::min(most, count - first);
-    const double* x = args + first;
-    double* out = results + first;
-    std::array<bool, most> large{};
-    std::size_t large_ones = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      large[i] = std::fabs(x[i]) >= least_large_angle &&
-                 std::fabs(x[i]) <= double{std::numeric_limits<float>::max()};
-      large_ones += large[i] ? 1U : 0U;
-    }
-    if (large_ones < n || argument_bits > 24) evaluate_vectors<Id>(x, out, bounds + first, n, argument_bits);
-    if (large_ones == 0 || argument_bits > 24) continue;
-    std::array<double, most> angles;
-    std::array<std::uint8_t, most> quadrants;
-    reduce_large_angles(x, n, angles.data(), quadrants.data());
-    for (std::size_t i = 0; i < n; ++i) angles[i] = large[i] ? base_angle<Id>(angles[i], quadrants[i]) : 1;
-    base(angles.data(), angles.data(), n);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!large[i]) continue;
-      out[i] = from_base<Id>(angles[i], quadrants[i]);
-      bounds[first + i] = 4 * vector_bound;
-    }
-  }
-}
-
 template <FunctionId Id, class W>
 BoundedFunction<W> best_function() {
-  if (bound_of<W>(Id) < 0) return nullptr;
   if constexpr (std::is_same_v<W, double>) {
-    if (vector_function(Id) != nullptr) {
-      if constexpr (Id == FunctionId::sin || Id == FunctionId::cos || Id == FunctionId::tan) {
-        if (vector_function(FunctionId::sin) != nullptr) return &evaluate_angles<Id>;
-      }
-      return &evaluate_vectors<Id>;
-    }
+    if (const auto function = double_lanes_function(Id); function != nullptr) return function;
   }
-  return &evaluate_batch<Id, W>;
+  if constexpr (bound_of<W>(Id) < 0) {
+    return nullptr;
+  } else {
+    return &evaluate_batch<Id, W>;
+  }
 }
 
 }  // namespace

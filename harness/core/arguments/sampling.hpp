@@ -132,6 +132,15 @@ namespace detail {
   return (((block * 2477U + 0x3f8U) & 0xfffU) << 20U) | static_cast<std::uint32_t>(k & 0xfffffU);
 }
 
+// Floats of this pattern and those behind it, in steps that become vectors.
+inline void fill_neighbours(std::uint32_t pattern, std::size_t count, float* out) {
+  constexpr std::uint32_t step = 8;
+  std::size_t i = 0;
+  for (; i + step <= count; i += step, pattern += step)
+    for (std::uint32_t j = 0; j < step; ++j) out[i + j] = std::bit_cast<float>(pattern + j);
+  for (; i < count; ++i, ++pattern) out[i] = std::bit_cast<float>(pattern);
+}
+
 }  // namespace detail
 
 template <RealType Real>
@@ -148,8 +157,7 @@ class Arguments {
       if (source_.stratum == Stratum::exhaustive) {
         // Of one block mostly, and there neighbours.
         if ((k & 0xfffffU) + count <= 0x100000U) {
-          const std::uint32_t pattern = detail::exhaustive_pattern(k);
-          for (std::uint32_t i = 0; i < count; ++i) out[i] = std::bit_cast<float>(pattern + i);
+          detail::fill_neighbours(detail::exhaustive_pattern(k), count, out);
         } else {
           for (std::size_t i = 0; i < count; ++i)
             out[i] = std::bit_cast<float>(detail::exhaustive_pattern(k + i));

@@ -86,7 +86,9 @@ class FunctionSubject final : public Subject {
       run(source, first, last, judging, tally);
       hint.decided[static_cast<std::size_t>(Stage::full)] += last - first;
     } else {
-      ScreenedJudging<Real> judging(function_);
+      using Judging = ScreenedJudging<Real>;
+      Judging judging(function_, source.stratum == Stratum::exhaustive ? Judging::exhaustive_check_stride
+                                                                       : Judging::check_stride);
       run(source, first, last, judging, tally);
       for (std::size_t s = 0; s < stage_count; ++s) hint.decided[s] += judging.decided()[s];
     }

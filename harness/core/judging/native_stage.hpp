@@ -27,25 +27,25 @@ class NativeStage {
     args_.resize(args.size());
     results_.resize(count);
     bounds_.resize(count);
-    std::copy(args.begin(), args.end(), args_.begin());
+    widen(args);
     function_(args_.data(), results_.data(), bounds_.data(), count, std::numeric_limits<Real>::digits);
   }
 
   // The loaded points, of one argument each, for scan_ordinary.
   [[nodiscard]] ScanInput scan_input(std::span<const float> args, std::span<const float> results,
-                                     std::uint64_t first_index, double largest_error) const
+                                     std::uint64_t first_index, const ScanLimits& limits) const
       requires(std::same_as<Real, float>&& std::same_as<W, double>) {
     return {args.data(), results.data(), results_.data(), bounds_.data(),
-            args.size(), first_index,    largest_error,   inexact_results(id_)};
+            args.size(), first_index,    limits,          inexact_results(id_)};
   }
 
   // The same of any number of arguments.
   [[nodiscard]] WideScanInput scan_input(std::span<const double> args, std::span<const double> results,
-                                         std::uint64_t first_index, double largest_error) const
+                                         std::uint64_t first_index, const ScanLimits& limits) const
       requires(std::same_as<Real, double>&& std::same_as<W, DoubleDouble>) {
     const double* single = args.size() == results.size() ? args.data() : nullptr;
     return {single,         results.data(), results_.data(), bounds_.data(),
-            results.size(), first_index,    largest_error,   inexact_results(id_)};
+            results.size(), first_index,    limits,          inexact_results(id_)};
   }
 
   [[nodiscard]] long double value(std::size_t i) const { return static_cast<long double>(results_[i]); }
@@ -119,6 +119,15 @@ class NativeStage {
   }
 
  private:
+  // A loop that the compiler turns into vectors only when it is told the number of steps.
+  void widen(std::span<const Real> args) {
+    constexpr std::size_t step = 8;
+    std::size_t i = 0;
+    for (; i + step <= args.size(); i += step)
+      for (std::size_t j = 0; j < step; ++j) args_[i + j] = args[i + j];
+    for (; i < args.size(); ++i) args_[i] = args[i];
+  }
+
   // Below its least normal number float has one spacing; that of the wider types is too small for a double.
   static constexpr bool gradual = std::numeric_limits<Real>::min_exponent > -800;
   // Whether results may have exponents that double has not.

@@ -24,6 +24,19 @@ class OrdinaryErrors {
                                                   0x1.ae89f995ad3adp-2,
                                                   0.5};
 
+  // What scan_ordinary counts goes on in the histogram's quarters of octaves up to 4 ULP: slots of the binade
+  // (2^b, 2^(b + 1)], of which the first has `least_binade`, from `least_fine` on four each, `first_fine` the
+  // first of them.
+  static constexpr int least_binade = -6;
+  static constexpr int least_fine = -2;
+  static constexpr int first_fine = 5;
+  static constexpr std::array<double, 3> quarters = {0x1.306fe0a31b715p0, 0x1.6a09e667f3bcdp0,
+                                                     0x1.ae89f995ad3adp0};
+  static constexpr std::array<std::uint64_t, 3> quarter_bits = {0x306fe0a31b715U, 0x6a09e667f3bcdU,
+                                                                0xae89f995ad3adU};
+  static constexpr std::size_t scanned_slots = 21;
+  static constexpr double greatest_edge = 4;
+
   [[nodiscard]] static std::size_t slot(double error) {
     std::size_t n = 0;
     for (std::size_t i = 0; i + 1 < upper.size(); ++i) n += error > upper[i] ? 1U : 0U;

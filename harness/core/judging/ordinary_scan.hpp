@@ -11,13 +11,21 @@
 
 namespace ulpgate {
 
-// What a scan says of one sample: 2 * slot + 1 where OrdinaryErrors rounds the error up to the slot's upper
-// edge, 2 * slot where down to the lower one, or one of these.
+// What a scan says of one sample: 2 * slot + 1 where the mean rounds the error up to the upper edge of the
+// slot of OrdinaryErrors, 2 * slot where down to the lower one, or one of these.
 namespace verdict {
 // Exact: NaN for NaN, infinity for infinity, and equal to a value that has no error.
-inline constexpr std::uint8_t agreed = 18;
+inline constexpr std::uint8_t agreed = 62;
 inline constexpr std::uint8_t unsettled = 255;
 }  // namespace verdict
+
+// What is recorded so far, which nothing that is settled may exceed.
+struct ScanLimits {
+  double largest_error;
+  // Of errors above 1/2 ULP.
+  double error_over_condition;
+  double max_distance;
+};
 
 struct ScanInput {
   const float* args;  // of one argument each
@@ -26,7 +34,7 @@ struct ScanInput {
   const double* bounds;  // of the values, in ulp of binary64; negative: nothing is known
   std::size_t count;
   std::uint64_t first_index;  // of the row's points
-  double largest_error;       // recorded so far; nothing that could reach it is settled
+  ScanLimits limits;
   InexactResults inexact;
 };
 
@@ -38,12 +46,12 @@ struct WideScanInput {
   const double* bounds;  // of the values, in ulp of double-double; negative: nothing is known
   std::size_t count;
   std::uint64_t first_index;
-  double largest_error;
+  ScanLimits limits;
   InexactResults inexact;
 };
 
-// Writes a verdict for each sample.  Settled are results that are the correctly rounded ones, whose error is
-// surely no maximum and surely in one bucket and on one side of the mean's threshold, and agreed special
+// Writes a verdict for each sample.  Settled are results whose error is surely below 1/2 or, up to 4 ULP,
+// surely above, no maximum, in one bucket and on one side of the mean's threshold, and agreed special
 // results; NativeStage::find says the same of them.
 void scan_ordinary(const ScanInput& in, std::uint8_t* verdicts);
 void scan_ordinary(const WideScanInput& in, std::uint8_t* verdicts);

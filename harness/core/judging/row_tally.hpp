@@ -33,7 +33,9 @@ class RowTally {
   [[nodiscard]] bool knows_maxima() const { return hint_.max_error(0).index != no_index; }
 
   // Of rows of one part.
-  [[nodiscard]] double largest_error() const { return parts_[0].largest_error(); }
+  [[nodiscard]] ScanLimits scan_limits() const {
+    return parts_[0].scan_limits(hint_.error_over_condition[0].load(std::memory_order_relaxed));
+  }
   void count_scanned(std::span<const std::uint8_t> verdicts, std::uint64_t first) {
     parts_[0].count_scanned(verdicts, first);
   }
@@ -64,8 +66,8 @@ class RowTally {
   [[nodiscard]] std::vector<Summary> take() {
     std::vector<Summary> summaries;
     for (std::size_t part = 0; part < parts_.size(); ++part) {
-      hint_.raise_max_error(part, parts_[part].max_error());
       summaries.push_back(parts_[part].take());
+      hint_.raise_max_error(part, summaries.back().max_error);
     }
     return summaries;
   }

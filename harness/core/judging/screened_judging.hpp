@@ -48,16 +48,22 @@ class ScreenedJudging {
   // The MPFR stage is within one ulp of its own precision of the exact value (oracle.hpp).
   static constexpr long stage_bits = std::numeric_limits<Real>::digits + 32;
   static constexpr std::uint64_t check_stride = 1024;
+  // Of all floats: 2^18 of them.
+  static constexpr std::uint64_t exhaustive_check_stride = 16 * check_stride;
   // Of the checked samples most go to the full reference at once, these through all stages, so that those
   // which are rarely reached are held to their bounds as well.
-  static constexpr std::uint64_t deep_check_stride = 16 * check_stride;
+  static constexpr std::uint64_t deep_checks = 16;
+  static constexpr std::uint64_t deep_check_stride = deep_checks * check_stride;
 
-  explicit ScreenedJudging(const FunctionInfo& f) : ScreenedJudging(f, screen_stages(f)) {}
-  ScreenedJudging(const FunctionInfo& f, const ScreenStages& stages)
+  // Checks every `stride`-th sample.
+  explicit ScreenedJudging(const FunctionInfo& f, std::uint64_t stride = check_stride)
+      : ScreenedJudging(f, screen_stages(f), stride) {}
+  ScreenedJudging(const FunctionInfo& f, const ScreenStages& stages, std::uint64_t stride = check_stride)
       : parts_(static_cast<std::size_t>(f.parts)),
         natives_(native_stages(f.id, stages)),
         stage_(f, stage_bits, stages.mpfr),
-        full_(f) {}
+        full_(f),
+        stride_(stride) {}
 
   // Throws ReferenceDisagreement.
   void judge(const Batch<Real>& batch, RowTally<Real>& tally) {
@@ -123,11 +129,11 @@ class ScreenedJudging {
   }
 
   [[nodiscard]] bool is_checked(const Batch<Real>& batch, std::size_t i) const {
-    return (batch.first_index + i) % check_stride == 0;
+    return (batch.first_index + i) % stride_ == 0;
   }
 
   [[nodiscard]] bool is_checked_by_all(const Batch<Real>& batch, std::size_t i) const {
-    return (batch.first_index + i) % deep_check_stride == 0;
+    return (batch.first_index + i) % (deep_checks * stride_) == 0;
   }
 
   // Whether a whole batch is scanned first, which leaves in pending_ what is left over.
@@ -186,11 +192,10 @@ class ScreenedJudging {
   template <class Native>
   void settle_ordinary(const Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
     verdicts_.resize(batch.count());
-    scan_ordinary(native.scan_input(batch.args, batch.results, batch.first_index, tally.largest_error()),
+    scan_ordinary(native.scan_input(batch.args, batch.results, batch.first_index, tally.scan_limits()),
                   verdicts_.data());
-    const std::uint64_t past_check = batch.first_index % check_stride;
-    for (std::size_t i = past_check == 0 ? 0 : check_stride - past_check; i < batch.count();
-         i += check_stride)
+    const std::uint64_t past_check = batch.first_index % stride_;
+    for (std::size_t i = past_check == 0 ? 0 : stride_ - past_check; i < batch.count(); i += stride_)
       verdicts_[i] = verdict::unsettled;
     // What is no value was scanned like one.
     std::uint8_t threw = 0;
@@ -310,6 +315,7 @@ class ScreenedJudging {
   decltype(native_stages(FunctionId{}, ScreenStages{})) natives_;
   PointJudge<Real> stage_;
   FullJudging<Real> full_;
+  std::uint64_t stride_;
   MpfrValue upper_;
   MpfrValue beside_;
   std::vector<std::size_t> pending_;

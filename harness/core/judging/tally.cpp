@@ -2,6 +2,7 @@
 #include "harness/core/judging/tally.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace ulpgate {
 
@@ -35,38 +36,61 @@ void Tally::count(const Finding& f, std::uint64_t k) {
 }
 
 void Tally::count_scanned(std::span<const std::uint8_t> verdicts, std::uint64_t first) {
-  // Neighbours are alike, and one counter in turn would wait for itself.
-  constexpr std::size_t codes = 32;
-  static_assert(verdict::agreed < codes - 1 && verdict::unsettled % codes == codes - 1);
-  std::array<std::array<std::uint32_t, codes>, 4> some{};
+  static_assert(2 * OrdinaryErrors::scanned_slots <= verdict::agreed && verdict::agreed < verdict_codes - 1 &&
+                verdict::unsettled % verdict_codes == verdict_codes - 1);
   std::size_t i = 0;
-  for (; i + 4 <= verdicts.size(); i += 4) {
-    for (std::size_t j = 0; j < 4; ++j) ++some[j][verdicts[i + j] % codes];
+  for (; i + scanned_.size() <= verdicts.size(); i += scanned_.size()) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &verdicts[i], sizeof eight);
+#pragma GCC unroll 8
+    for (std::size_t j = 0; j < scanned_.size(); ++j) ++scanned_[j][(eight >> 8 * j) % verdict_codes];
   }
-  for (; i < verdicts.size(); ++i) ++some[0][verdicts[i] % codes];
-  std::array<std::uint64_t, codes> counts{};
-  for (const auto& list : some)
-    for (std::size_t code = 0; code < codes; ++code) counts[code] += list[code];
-  const auto first_where = [&](auto&& wanted) {
-    return first + static_cast<std::uint64_t>(std::ranges::find_if(verdicts, wanted) - verdicts.begin());
+  for (; i < verdicts.size(); ++i) ++scanned_[0][verdicts[i] % verdict_codes];
+  const auto note_first = [&](std::uint64_t& noted, auto&& wanted) {
+    if (noted != no_index) return;
+    const auto at = std::ranges::find_if(verdicts, wanted);
+    if (at != verdicts.end()) noted = first + static_cast<std::uint64_t>(at - verdicts.begin());
   };
-  const std::uint64_t agreed = counts[verdict::agreed];
-  const std::uint64_t settled = verdicts.size() - counts[codes - 1];
-  if (agreed > 0) {
-    const std::uint64_t k = first_where([](std::uint8_t v) { return v == verdict::agreed; });
-    count({}, k);
-    summary_.samples += agreed - 1;
-    summary_.outcomes[static_cast<std::size_t>(Outcome::finite)] += agreed - 1;
-    summary_.correctly_rounded += agreed - 1;
-    summary_.histogram.exact += agreed - 1;
+  // Whole rows have none.
+  const auto agreed_in = [](const auto& list) { return list[verdict::agreed] > 0; };
+  if (std::ranges::any_of(scanned_, agreed_in))
+    note_first(first_agreed_, [](std::uint8_t v) { return v == verdict::agreed; });
+  note_first(first_scanned_, [](std::uint8_t v) { return v < verdict::agreed; });
+}
+
+void Tally::settle_scanned() {
+  std::array<std::uint64_t, verdict_codes> counts{};
+  for (const auto& list : scanned_)
+    for (std::size_t code = 0; code < verdict_codes; ++code) counts[code] += list[code];
+  scanned_ = {};
+  constexpr auto finite = static_cast<std::size_t>(Outcome::finite);
+  if (first_agreed_ != no_index) {
+    const std::uint64_t more = counts[verdict::agreed] - 1;
+    count({}, first_agreed_);
+    summary_.samples += more;
+    summary_.outcomes[finite] += more;
+    summary_.correctly_rounded += more;
+    summary_.histogram.exact += more;
   }
-  if (settled > agreed) {
-    ordinary_.count_scanned(std::span(counts).first<verdict::agreed>(),
-                            first_where([](std::uint8_t v) { return v < verdict::agreed; }));
+  if (first_scanned_ != no_index) {
+    constexpr std::size_t halves = 2 * OrdinaryErrors::buckets.size();
+    ordinary_.count_scanned(std::span(counts).first<halves>(), first_scanned_);
+    for (std::size_t slot = halves / 2; slot < OrdinaryErrors::scanned_slots; ++slot) {
+      const std::uint64_t all = counts[2 * slot] + counts[2 * slot + 1];
+      const int bucket = OrdinaryErrors::buckets.back() + 1 + static_cast<int>(slot - halves / 2);
+      Bucket& b = flat_[static_cast<std::size_t>(bucket - flat_least)];
+      b.count += all;
+      b.rounded_up += counts[2 * slot + 1];
+      summary_.samples += all;
+      summary_.outcomes[finite] += all;
+    }
   }
+  first_agreed_ = no_index;
+  first_scanned_ = no_index;
 }
 
 Summary Tally::take() {
+  settle_scanned();
   for (int i = flat_least; i <= flat_greatest; ++i) {
     const Bucket& b = flat_[static_cast<std::size_t>(i - flat_least)];
     if (b.count == 0) continue;

@@ -34,7 +34,7 @@ class Tally {
     return ordinary_.count(f.least, f.greatest, k);
   }
 
-  // Counts what scan_ordinary settled of the samples from index `first` on.
+  // Counts what scan_ordinary settled of the samples from index `first` on, which rises from call to call.
   void count_scanned(std::span<const std::uint8_t> verdicts, std::uint64_t first);
 
   // condition_bound() is a lower bound of the condition number at the sample, called only where it matters;
@@ -59,6 +59,10 @@ class Tally {
 
   void raise_error_over_condition(double ratio) {
     summary_.max_error_over_condition = std::max(summary_.max_error_over_condition, ratio);
+  }
+  // What a scan may settle now; `ratio_seen` as of need().
+  [[nodiscard]] ScanLimits scan_limits(double ratio_seen) const {
+    return {largest_error(), ratio_seen, summary_.max_distance};
   }
   // An error that could be as large as this is no ordinary one.
   [[nodiscard]] double largest_error() const { return std::max(seen_.value, summary_.max_error.value); }
@@ -103,6 +107,15 @@ class Tally {
     // The sample that made the maximum says so again when its unit is evaluated once more.
     return error > most.value || (error == most.value && k <= most.index);
   }
+
+  // Counts what count_scanned noted.
+  void settle_scanned();
+
+  // Eight lists: neighbours are alike, and one counter in turn would wait for itself.
+  static constexpr std::size_t verdict_codes = 64;
+  std::array<std::array<std::uint64_t, verdict_codes>, 8> scanned_{};
+  std::uint64_t first_agreed_ = no_index;
+  std::uint64_t first_scanned_ = no_index;  // and not agreed
 
   Summary summary_;
   Maximum seen_;
