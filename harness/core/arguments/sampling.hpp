@@ -138,7 +138,7 @@ inline void fill_neighbours(std::uint32_t pattern, std::size_t count, float* out
   std::size_t i = 0;
   for (; i + step <= count; i += step, pattern += step)
     for (std::uint32_t j = 0; j < step; ++j) out[i + j] = std::bit_cast<float>(pattern + j);
-  for (; i < count; ++i, ++pattern) out[i] = std::bit_cast<float>(pattern);
+  for (std::uint32_t j = 0; j < count - i; ++j) out[i + j] = std::bit_cast<float>(pattern + j);
 }
 
 }  // namespace detail
