@@ -220,7 +220,8 @@ class NativeStage {
     }
     // A zero of W may be an exact one.
     if (!bits.normal && !(is_never_zero(id_) && std::isfinite(args[0]))) return false;
-    const double greatest = power_of_two(std::max(size, -900) + 1);
+    // Nor is a zero for numbers of W's own range that the stage does not give (double_lanes.hpp).
+    const double greatest = power_of_two(std::max(size, bits.normal ? -900 : -700) + 1);
     finding = {Outcome::finite, smallest_error, greatest, 0, true, true};
     if (other_sign) finding = finding_of({Outcome::zero_sign, {}, 0, false});
     return true;

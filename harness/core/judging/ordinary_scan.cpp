@@ -1,5 +1,5 @@
-// The scan, for several instruction sets.  Every operation is exactly rounded and none is contracted, so all
-// of them write the same verdicts.
+// The scan, for several instruction sets.  Every operation is exactly rounded and none is contracted: where
+// two of them settle a sample they write the same verdict.
 #include "harness/core/judging/ordinary_scan.hpp"
 
 #include <algorithm>
@@ -28,6 +28,7 @@ constexpr std::size_t width = 2;
 // clang-format off
 #include "harness/core/judging/scan_vectors.inc"
 #include "harness/core/judging/ordinary_scan_kernel.inc"
+#include "harness/core/judging/scan_in_binary32.inc"
 // clang-format on
 }  // namespace baseline
 
@@ -40,6 +41,7 @@ constexpr std::size_t width = 4;
 // clang-format off
 #include "harness/core/judging/scan_vectors.inc"
 #include "harness/core/judging/ordinary_scan_kernel.inc"
+#include "harness/core/judging/scan_in_binary32.inc"
 // clang-format on
 }  // namespace avx2
 #pragma GCC pop_options
@@ -50,6 +52,7 @@ constexpr std::size_t width = 8;
 // clang-format off
 #include "harness/core/judging/scan_vectors.inc"
 #include "harness/core/judging/ordinary_scan_kernel.inc"
+#include "harness/core/judging/scan_in_binary32.inc"
 // clang-format on
 }  // namespace avx512
 #pragma GCC pop_options

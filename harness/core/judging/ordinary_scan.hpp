@@ -57,7 +57,8 @@ void scan_ordinary(const ScanInput& in, std::uint8_t* verdicts);
 void scan_ordinary(const WideScanInput& in, std::uint8_t* verdicts);
 
 // The same for each instruction set that this processor has, the fastest last.  They may leave different
-// numbers of samples at the end of a batch unsettled, for the caller to look at one by one.
+// samples unsettled, for the caller to look at one by one: at the end of a batch, and of binary32 those
+// closer to a threshold than binary32 tells.
 using OrdinaryScan = void (*)(const ScanInput& in, std::uint8_t* verdicts);
 [[nodiscard]] std::vector<OrdinaryScan> ordinary_scans();
 using WideScan = void (*)(const WideScanInput& in, std::uint8_t* verdicts);

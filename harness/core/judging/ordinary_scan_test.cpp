@@ -176,8 +176,15 @@ TEST(OrdinaryScan, WritesTheSameVerdictsWithEveryInstructionSet) {
   for (const OrdinaryScan scan : ordinary_scans()) {
     all.emplace_back(args.size());
     scan(stage.scan_input(args, results, 123456789, {1.5, 0.9, 1}), all.back().data());
-    all.back().resize(args.size() - 8);
-    EXPECT_EQ(all.back(), all.front());
+    all.back().resize(args.size() - 16);
+    std::size_t unsettled = 0;
+    for (std::size_t i = 0; i < all.back().size(); ++i) {
+      const auto [one, other] = std::pair(all.back()[i], all.front()[i]);
+      if (one == other) continue;
+      ++unsettled;
+      EXPECT_TRUE(one == verdict::unsettled || other == verdict::unsettled) << args[i];
+    }
+    EXPECT_LT(unsettled, args.size() / 1000);
   }
 }
 
@@ -245,6 +252,19 @@ TEST(NativeStage, DoesNotAgreeToASpuriousOverflow) {
   EXPECT_FALSE(stage.find(0, &args[0], infinity, finding));
   EXPECT_TRUE(stage.find(2, &args[2], infinity, finding)) << "beyond the range";
   EXPECT_EQ(finding.outcome, Outcome::finite);
+}
+
+// The stage's zero stands for e^-701, a normal double, which is 2^-862 ULP of binary32 off.
+TEST(NativeStage, KnowsHowMuchAZeroMayBeOff) {
+  const std::vector<float> args = {-701};
+  NativeStage<float, double, Stage::binary64> stage(FunctionId::exp,
+                                                    bounded_function<double>(FunctionId::exp));
+  stage.load(args, args.size());
+  Finding finding;
+  ASSERT_TRUE(stage.find(0, args.data(), 0.0F, finding));
+  EXPECT_GT(finding.least, 0);
+  EXPECT_GE(finding.greatest, std::ldexp(std::exp(-701.0), 149));
+  EXPECT_LT(finding.greatest, 0x1p-600);
 }
 
 // What is lost of a product or a quotient may be below the least number and seem to be nothing.
