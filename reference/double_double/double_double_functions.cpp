@@ -2,6 +2,7 @@
 #include "reference/double_double/double_double_functions.hpp"
 
 #include <cstdint>
+#include <utility>
 
 #include "reference/double_double/constants.hpp"
 

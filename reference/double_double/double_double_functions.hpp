@@ -17,13 +17,12 @@ using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* re
                                       std::size_t count, int argument_bits);
 
 // nullptr where there is none.  The bounds are derived where the functions stand (exponentials.inc and its
-// like), for round to nearest; they assume of the C library's double functions atan, atan2, log and cbrt that
-// they are right to 2^-50.
+// like), for round to nearest; nothing of the C library is called.
 [[nodiscard]] DoubleDoubleFunction double_double_function(FunctionId id);
 
 // Whether all of it is had at less than the x87 function: then that has no stage before it.  Measured by
 // engine_benchmark with AVX-512, a whole sample with the scan of ordinary ones, x87 first and without: exp
-// 102 and 44 ns, log 99 and 67, sin 184 and 67, pow 320 and 115, tgamma 680 and 560, asin 193 and 128.  Where
+// 102 and 39 ns, log 99 and 63, sin 184 and 65, pow 320 and 111, add 89 and 44, fmod 110 and 48.  Where
 // erfc underflows, x87 tells its size, which no double-double has.
 [[nodiscard]] constexpr bool is_cheaper_than_x87(FunctionId id) {
   return id != FunctionId::erfc;

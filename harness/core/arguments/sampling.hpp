@@ -33,7 +33,14 @@ template <NativeReal Real>
 // rounded once, so the value depends on the words alone, not on a library's distribution.
 template <RealType Real>
 Real on_minus_100_100(std::span<const std::uint64_t> words) {
-  if constexpr (NativeReal<Real>) {
+  if constexpr (std::same_as<Real, double>) {
+    // rounded_once of the same integer, in pieces of 32 bits.
+    const std::uint64_t low = 200 * (words[0] & 0xffffffffU);
+    const auto high =
+        static_cast<std::int64_t>(200 * (words[0] >> 32U) + (low >> 32U)) - (std::int64_t{100} << 32U);
+    return (static_cast<double>(high) * 0x1p32 + static_cast<double>(static_cast<std::uint32_t>(low))) *
+           0x1p-64;
+  } else if constexpr (NativeReal<Real>) {
     const __int128 v =
         static_cast<__int128>(200) * static_cast<__int128>(words[0]) - (static_cast<__int128>(100) << 64U);
     return rounded_once<Real>(v) * Real(0x1p-64);  // exact
@@ -165,6 +172,9 @@ class Arguments {
         return;
       }
     }
+    if constexpr (NativeReal<Real>) {
+      if (source_.list == nullptr && source_.stratum != Stratum::binades) return draw_all(k, count, out);
+    }
     for (std::size_t i = 0; i < count; ++i) make(k + i, out + i * static_cast<std::size_t>(function_.arity));
   }
 
@@ -192,6 +202,32 @@ class Arguments {
   }
 
  private:
+  // As on_interval, for many points.
+  void draw_all(std::uint64_t k, std::size_t count, Real* out) const {
+    const auto arity = static_cast<std::size_t>(function_.arity);
+    std::array<std::uint64_t, 64> words;
+    for (std::size_t first = 0; first < count; first += words.size()) {
+      const std::span some = std::span(words).first(std::min(words.size(), count - first));
+      for (std::size_t argument = 0; argument < arity; ++argument) {
+        stream_.first_words(k + first, argument, some);
+        if (source_.stratum == Stratum::stratified) {
+          for (std::size_t i = 0; i < some.size(); ++i) {
+            const std::uint64_t cell =
+                detail::permuted_cell(k + first + i, strides_[argument], source_.count);
+            detail::into_cell(some.subspan(i, 1), cell, source_.count);
+          }
+        }
+        Real* to = out + first * arity + argument;
+        for (std::size_t i = 0; i < some.size(); ++i)
+          to[i * arity] = detail::on_minus_100_100<Real>(some.subspan(i, 1));
+        const DomainMap map = function_.domain[argument];
+        if (map == DomainMap::ALL) continue;
+        for (std::size_t i = 0; i < some.size(); ++i)
+          to[i * arity] = detail::map_to_domain(map, to[i * arity]);
+      }
+    }
+  }
+
   Real on_interval(std::uint64_t k, std::size_t argument, DomainMap map) const {
     std::uint64_t words[detail::words_per_value<Real>];
     stream_.fill(k, argument, words);

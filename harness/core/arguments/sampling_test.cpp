@@ -113,6 +113,60 @@ TEST(Arguments, OfTheExhaustiveStratumAreTheBitPatternsOfFloat) {
   EXPECT_EQ(std::ranges::count(seen, true), 4096) << "every block once";
 }
 
+TEST(RandomStream, FirstWordsOfManyPointsAreThoseOfEach) {
+  for (const std::uint64_t seed : {1ULL, 0xfedcba9876543210ULL}) {
+    const RandomStream stream(seed, "sin", "uniform");
+    for (const std::uint64_t argument : {0U, 2U}) {
+      std::array<std::uint64_t, 100> words{};
+      constexpr std::uint64_t first = (std::uint64_t{1} << 40U) - 50;
+      stream.first_words(first, argument, words);
+      for (std::size_t i = 0; i < words.size(); ++i) {
+        std::uint64_t word[1];
+        stream.fill(first + i, argument, word);
+        EXPECT_EQ(words[i], word[0]);
+      }
+    }
+  }
+}
+
+template <class Real>
+void expect_points_of_many_are_those_of_each() {
+  for (const FunctionInfo& f : all_functions()) {
+    for (const Stratum s : {Stratum::uniform, Stratum::stratified}) {
+      const Arguments<Real> arguments(f, {s, 1, 1000, nullptr});
+      const auto arity = static_cast<std::size_t>(f.arity);
+      std::vector<Real> many(150 * arity);
+      arguments.make_all(7, 150, many.data());
+      for (std::size_t i = 0; i < 150; ++i) {
+        std::array<Real, max_arity> one{};
+        arguments.make(7 + i, one.data());
+        for (std::size_t j = 0; j < arity; ++j) EXPECT_EQ(many[i * arity + j], one[j]) << f.name;
+      }
+    }
+  }
+}
+
+TEST(Arguments, OfManyPointsAreThoseOfEach) {
+  expect_points_of_many_are_those_of_each<float>();
+  expect_points_of_many_are_those_of_each<double>();
+  expect_points_of_many_are_those_of_each<long double>();
+}
+
+// The value depends on the words alone: 200 w - 100 rounded once.
+TEST(Arguments, DoublesAreRoundedOnce) {
+  SplitMix64 words(3);
+  MpfrValue exact(160);
+  for (int i = 0; i < 10000; ++i) {
+    const std::uint64_t word[1] = {i % 3 == 0 ? 0x8000000000000000U + (words.word() >> (i % 60 + 1))
+                                              : words.word()};
+    mpfr_set_ui(exact, word[0], MPFR_RNDN);  // of 64 bits where ulpgate runs
+    mpfr_mul_ui(exact, exact, 200, MPFR_RNDN);
+    mpfr_div_2ui(exact, exact, 64, MPFR_RNDN);
+    mpfr_sub_ui(exact, exact, 100, MPFR_RNDN);
+    EXPECT_EQ(detail::on_minus_100_100<double>(word), mpfr_get_d(exact, MPFR_RNDN));
+  }
+}
+
 TEST(HardArguments, FindTheWorstCaseOfTrigonometricReductionInDouble) {
   // Kahan's and Ng's famous argument: 6381956970095103 * 2^797 lies 4.7e-19 from a multiple of pi/2.
   const auto list = nearest_to_multiples_of_half_pi(float_format<double>(), 1023);

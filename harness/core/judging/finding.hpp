@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <stdexcept>
 
 #include "reference/oracle/oracle.hpp"
 #include "reference/ulp/ulp.hpp"
@@ -39,5 +40,12 @@ struct Finding {
 [[nodiscard]] inline Finding finding_of(const Judgement& j) {
   return {j.outcome, j.error.value, j.error.value, j.distance, true, j.correctly_rounded};
 }
+
+// The screen and the full reference differ by more than the screen's bound: one of them is wrong, and nothing
+// measured with them counts.
+class ReferenceDisagreement : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 }  // namespace ulpgate

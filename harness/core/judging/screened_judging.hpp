@@ -10,7 +10,6 @@
 
 #include "harness/core/judging/judging.hpp"
 #include "harness/core/judging/native_stage.hpp"
-#include "harness/core/judging/reference_disagreement.hpp"
 #include "reference/double_double/double_double_functions.hpp"
 #include "reference/text/text.hpp"
 
