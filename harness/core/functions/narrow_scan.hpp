@@ -21,7 +21,7 @@ namespace ulpgate {
 // so that a run of any function takes about as long; 0 where the function has no cheap reference.
 [[nodiscard]] std::size_t narrow_block(const FunctionInfo& f, bool binary32);
 
-// The type whose C library functions are the cheap reference; void where there is none.
+// The type whose functions are the cheap reference (native_functions.hpp); void where there is none.
 template <class Real>
 struct NarrowReference {
   using type = void;
