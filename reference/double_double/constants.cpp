@@ -49,6 +49,19 @@ void make_exponentials(Constants& c) {
   }
 }
 
+void make_logarithms(Constants& c) {
+  MpfrValue scale(11);
+  MpfrValue x(bits);
+  for (std::size_t i = 0; i < c.log_scale.size(); ++i) {
+    mpfr_set_ui(scale, 128, MPFR_RNDN);
+    mpfr_div_ui(scale, scale, i + least_log_index, MPFR_RNDN);
+    c.log_scale[i] = mpfr_get_d(scale, MPFR_RNDN);
+    mpfr_log(x, scale, MPFR_RNDN);
+    mpfr_neg(x, x, MPFR_RNDN);
+    c.log_of_scale[i] = rounded(x);
+  }
+}
+
 void make_angles(Constants& c) {
   MpfrValue x(bits);
   mpfr_const_pi(x, MPFR_RNDN);
@@ -62,6 +75,11 @@ void make_angles(Constants& c) {
     mpfr_sin_cos(x, cosine, x, MPFR_RNDN);
     c.sine[i] = rounded(x);
     c.cosine[i] = rounded(cosine);
+  }
+  for (std::size_t i = 0; i < c.angle.size(); ++i) {
+    mpfr_set_ui_2exp(x, i, -5, MPFR_RNDN);
+    mpfr_atan(x, x, MPFR_RNDN);
+    c.angle[i] = rounded(x);
   }
   const auto words = c.two_over_pi.size();
   MpfrValue long_one(static_cast<mpfr_prec_t>(64 * words + 64));
@@ -165,6 +183,7 @@ void make_error_functions(Constants& c) {
 Constants made() {
   Constants c{};
   make_exponentials(c);
+  make_logarithms(c);
   make_angles(c);
   make_reciprocals(c);
   make_gamma(c);

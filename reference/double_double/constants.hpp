@@ -17,12 +17,17 @@ struct Constants {
   DoubleDouble ln2, inverse_ln2, inverse_ln10;
   // 2^(j/64) and 2^(j/64) - 1 for j = i - 32.
   std::array<DoubleDouble, 65> power, power_less_1;
+  // 128 / k rounded to 11 bits for k = i + least_log_index, and the logarithm of its reciprocal.
+  std::array<double, 93> log_scale;
+  std::array<DoubleDouble, 93> log_of_scale;
   // pi / 2 in pieces of 53 bits, and 2 / pi.
-  std::array<double, 4> half_pi;
+  std::array<double, 3> half_pi;
   double inverse_half_pi;
   DoubleDouble half_pi_dd, pi_dd;
   // Sine and cosine of i / 32.
   std::array<DoubleDouble, 27> sine, cosine;
+  // The angle of i / 32.
+  std::array<DoubleDouble, 33> angle;
   // 1 / n!
   std::array<DoubleDouble, 28> inverse_factorial;
   // 1 / n
@@ -39,6 +44,8 @@ struct Constants {
   // 2 / pi = sum of words[i] 2^(-64 (i + 1)).
   std::array<std::uint64_t, 24> two_over_pi;
 };
+
+inline constexpr int least_log_index = 90;
 
 [[nodiscard]] const Constants& constants();
 

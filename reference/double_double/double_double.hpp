@@ -48,5 +48,9 @@ struct DoubleDouble {
 
 // One ulp of a DoubleDouble as bounds count them: 2^-99 of the power of two below the number.
 inline constexpr int double_double_bits = 100;
+// The binade down to which both parts of a number have all of their bits.
+inline constexpr int double_double_least = -960;
+// The binade below which a function's value is told as a zero with a bound that is none.
+inline constexpr int double_double_zero = -1100;
 
 }  // namespace ulpgate

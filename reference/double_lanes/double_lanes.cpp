@@ -7,14 +7,7 @@
 #include <numbers>
 
 #include "reference/double_lanes/large_angles.hpp"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define ULPGATE_DOUBLE_LANES_LEVELS
-#include <immintrin.h>
-#endif
-
-// Never called: a function of one instruction set must not become another's.
-#define ULPGATE_INLINE [[gnu::always_inline]] inline
+#include "reference/lanes/levels.hpp"
 
 namespace ulpgate {
 
@@ -75,64 +68,13 @@ constexpr auto trapezoid_terms = listed<12>([](std::size_t n) {
   return e;
 });
 
-namespace baseline {
-constexpr std::size_t width = 2;
-using Vector = double __attribute__((vector_size(width * sizeof(double))));
-// Two roundings where the derivations count one, but for products that are exact anyway; of what is left of
-// the bounds that is a small part.
-ULPGATE_INLINE Vector fused(Vector a, Vector b, Vector c) {
-  return a * b + c;
-}
-ULPGATE_INLINE Vector root_of(Vector x) {
-  for (std::size_t j = 0; j < width; ++j) x[j] = __builtin_sqrt(x[j]);
-  return x;
-}
-#include "reference/double_lanes/instruction_set.inc"
-}  // namespace baseline
-
-#ifdef ULPGATE_DOUBLE_LANES_LEVELS
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v3")
-namespace avx2 {
-constexpr std::size_t width = 4;
-using Vector = double __attribute__((vector_size(width * sizeof(double))));
-ULPGATE_INLINE Vector fused(Vector a, Vector b, Vector c) {
-  return _mm256_fmadd_pd(a, b, c);
-}
-ULPGATE_INLINE Vector root_of(Vector x) {
-  return _mm256_sqrt_pd(x);
-}
-#include "reference/double_lanes/instruction_set.inc"
-}  // namespace avx2
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v4")
-namespace avx512 {
-constexpr std::size_t width = 8;
-using Vector = double __attribute__((vector_size(width * sizeof(double))));
-ULPGATE_INLINE Vector fused(Vector a, Vector b, Vector c) {
-  return _mm512_fmadd_pd(a, b, c);
-}
-ULPGATE_INLINE Vector root_of(Vector x) {
-  return _mm512_maskz_sqrt_pd(0xff, x);
-}
-#include "reference/double_lanes/instruction_set.inc"
-}  // namespace avx512
-#pragma GCC pop_options
-#endif
+#define ULPGATE_LEVEL_FILE "reference/double_lanes/instruction_set.inc"
+#include "reference/lanes/each_level.inc"
 
 }  // namespace
 
-std::size_t double_lanes_levels() {
-#ifdef ULPGATE_DOUBLE_LANES_LEVELS
-  if (__builtin_cpu_supports("x86-64-v4") != 0) return 3;
-  if (__builtin_cpu_supports("x86-64-v3") != 0) return 2;
-#endif
-  return 1;
-}
-
 BoundedFunction<double> double_lanes_function(FunctionId id, [[maybe_unused]] std::size_t level) {
-#ifdef ULPGATE_DOUBLE_LANES_LEVELS
+#ifdef ULPGATE_LEVELS
   if (level == 2) return avx512::function_of(id);
   if (level == 1) return avx2::function_of(id);
 #endif
@@ -140,7 +82,7 @@ BoundedFunction<double> double_lanes_function(FunctionId id, [[maybe_unused]] st
 }
 
 BoundedFunction<double> double_lanes_function(FunctionId id) {
-  static const std::size_t best = double_lanes_levels() - 1;
+  static const std::size_t best = instruction_levels() - 1;
   return double_lanes_function(id, best);
 }
 

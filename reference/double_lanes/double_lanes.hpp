@@ -14,8 +14,7 @@ namespace ulpgate {
 // infinity stands for numbers from 2^900 on, and a zero for those below 2^-900.
 [[nodiscard]] BoundedFunction<double> double_lanes_function(FunctionId id);
 
-// Of each instruction set that this processor has, the slowest first; for tests.
-[[nodiscard]] std::size_t double_lanes_levels();
+// Of one instruction set, below instruction_levels(); for tests.
 [[nodiscard]] BoundedFunction<double> double_lanes_function(FunctionId id, std::size_t level);
 
 }  // namespace ulpgate

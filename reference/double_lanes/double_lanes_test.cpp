@@ -10,6 +10,7 @@
 #include <random>
 
 #include "reference/double_lanes/testing/within_bound.hpp"
+#include "reference/lanes/levels.hpp"
 
 namespace ulpgate {
 namespace {
@@ -59,7 +60,7 @@ TEST(DoubleLanes, KeepTheirBoundsOnEveryProcessor) {
     if (double_lanes_function(f.id) == nullptr) continue;
     ++functions;
     ASSERT_EQ(f.arity, 1);
-    for (std::size_t level = 0; level < double_lanes_levels(); ++level) {
+    for (std::size_t level = 0; level < instruction_levels(); ++level) {
       std::vector<double> results(args.size());
       std::vector<double> bounds(args.size());
       double_lanes_function(f.id, level)(args.data(), results.data(), bounds.data(), args.size(), 24);
@@ -82,7 +83,7 @@ TEST(DoubleLanes, KeepTheirBoundsOnEveryProcessor) {
 }
 
 TEST(DoubleLanes, GammaFarOutIsInfiniteZeroOrAtAPole) {
-  for (std::size_t level = 0; level < double_lanes_levels(); ++level) {
+  for (std::size_t level = 0; level < instruction_levels(); ++level) {
     const std::array<double, 6> args = {0x1p127, -0x1p127, -0x1p23, -8388607.5, -2000.5, -2001.5};
     std::array<double, 6> gamma{};
     std::array<double, 6> log_gamma{};
@@ -108,7 +109,7 @@ TEST(DoubleLanes, GammaFarOutIsInfiniteZeroOrAtAPole) {
 TEST(DoubleLanes, AnswerForEveryCountAlike) {
   const std::vector<double> args = many_floats(4);
   for (const FunctionInfo& f : all_functions()) {
-    for (std::size_t level = 0; level < double_lanes_levels(); ++level) {
+    for (std::size_t level = 0; level < instruction_levels(); ++level) {
       const auto function = double_lanes_function(f.id, level);
       if (function == nullptr) continue;
       std::vector<double> all(args.size());
@@ -166,7 +167,7 @@ TEST(DoubleLanes, KeepTheirBoundsNextToMultiplesOfAQuarterTurn) {
     }
   }
   double least = 1;
-  for (std::size_t level = 0; level < double_lanes_levels(); ++level) {
+  for (std::size_t level = 0; level < instruction_levels(); ++level) {
     std::vector<double> results(args.size());
     std::vector<double> bounds(args.size());
     for (const FunctionId id : {FunctionId::sin, FunctionId::cos, FunctionId::tan}) {

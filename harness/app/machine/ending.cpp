@@ -13,6 +13,7 @@
 #include "harness/app/machine/watchdog.hpp"
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/nearest_name.hpp"
+#include "reference/lanes/levels.hpp"
 
 namespace ulpgate::app {
 
@@ -20,6 +21,7 @@ Ending end_of(const Action& action, double timeout_s) {
   try {
     assert_floating_point_environment();
     start_watchdog(timeout_s);
+    static_cast<void>(instruction_levels());  // a wrong word is told before anything is done
     const Verdict verdict = action();
     check_environment("something in this run");
     // What was written before has left its mark where it failed.
@@ -28,6 +30,8 @@ Ending end_of(const Action& action, double timeout_s) {
     return {verdict.standing(), ""};
   } catch (const Failure& e) {
     return {e.standing(), e.what()};
+  } catch (const UnknownInstructions& e) {
+    return {Standing::bad_input, e.what()};
   } catch (const std::bad_alloc&) {
     return {Standing::environment, "out of memory"};
   } catch (const std::system_error& e) {

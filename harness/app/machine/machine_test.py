@@ -394,3 +394,31 @@ def test_b5_a_second_signal_ends_at_once_and_keeps_what_is_finished(
     code, err = interrupted(tmp_path / "out", library, first, second)
     assert code == 3 and "ended at once" in err
     assert (tmp_path / "out/units/log.txt").read_bytes().count(b"\n") > 2
+
+
+def test_fewer_instructions_give_the_same_records(tmp_path):
+    records = []
+    for instructions in ("baseline", "avx2", ""):
+        out = tmp_path / (instructions or "best")
+        done = subprocess.run(
+            [ULPGATE, "math", "--functions", "sin,log", "--types", "float,double", "--samples", "2000", "--out", out],
+            env={**os.environ, "ULPGATE_INSTRUCTIONS": instructions},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        records.append((out / "math.jsonl").read_bytes())
+    assert records[0] == records[1] == records[2]
+
+
+def test_unknown_instructions_are_bad_input():
+    done = subprocess.run(
+        [ULPGATE, "at", "sin", "double", "1"],
+        env={**os.environ, "ULPGATE_INSTRUCTIONS": "sse9"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert done.stderr == "ulpgate: ULPGATE_INSTRUCTIONS is 'sse9'; it may be baseline, avx2 or avx512\n"

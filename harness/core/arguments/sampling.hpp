@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "harness/core/arguments/argument_lists.hpp"
@@ -96,9 +97,19 @@ const Real& pi() {
   return value;
 }
 
+// fmod(x, 2), x >= 0, without its division where a half of x has an integer part that is a machine's.
+template <RealType Real>
+Real modulo_2(const Real& x) {
+  if constexpr (NativeReal<Real>) {
+    if (x < Real(0x1p60F)) return x - 2 * static_cast<Real>(static_cast<std::int64_t>(x / 2));
+  }
+  using std::fmod;
+  return fmod(x, Real(2));
+}
+
 // The domain maps, in the arithmetic of Real itself.
 template <RealType Real>
-Real map_to_domain(DomainMap map, const Real& x) {
+[[gnu::always_inline]] inline Real map_to_domain(DomainMap map, const Real& x) {
   using std::abs;
   using std::floor;
   using std::fmod;
@@ -106,7 +117,7 @@ Real map_to_domain(DomainMap map, const Real& x) {
     case DomainMap::ALL:
       return x;
     case DomainMap::PM1:
-      return fmod(Real(abs(x)), Real(2)) - Real(1);
+      return modulo_2(Real(abs(x))) - Real(1);
     case DomainMap::GTM1:
       return abs(x) - Real(1);
     case DomainMap::GT1:
@@ -127,9 +138,20 @@ Real map_to_domain(DomainMap map, const Real& x) {
   return x;
 }
 
-}  // namespace detail
-
-namespace detail {
+// Maps `count` numbers, `step` apart.
+template <DomainMap map, RealType Real>
+void map_each_to_domain(Real* x, std::size_t count, std::size_t step) {
+  for (std::size_t i = 0; i < count; ++i) x[i * step] = map_to_domain(map, x[i * step]);
+}
+// The map is chosen once for all of them.
+template <RealType Real>
+void map_all_to_domain(DomainMap map, Real* x, std::size_t count, std::size_t step) {
+  [&]<DomainMap... maps>(std::integer_sequence<DomainMap, maps...> /*all*/) {
+    static_cast<void>(((map == maps && (map_each_to_domain<maps>(x, count, step), true)) || ...));
+  }
+  (std::integer_sequence<DomainMap, DomainMap::PM1, DomainMap::GTM1, DomainMap::GT1, DomainMap::GT0, DomainMap::NZ,
+                         DomainMap::UINT, DomainMap::INT, DomainMap::MODPI, DomainMap::MOD2PI>());
+}
 
 // The k-th bit pattern of binary32, each once: blocks of 2^20 neighbours, far from each other and from 1.0
 // on. The largest errors are then known early, while a plateau of equal tiny errors at the start would send
@@ -220,10 +242,7 @@ class Arguments {
         Real* to = out + first * arity + argument;
         for (std::size_t i = 0; i < some.size(); ++i)
           to[i * arity] = detail::on_minus_100_100<Real>(some.subspan(i, 1));
-        const DomainMap map = function_.domain[argument];
-        if (map == DomainMap::ALL) continue;
-        for (std::size_t i = 0; i < some.size(); ++i)
-          to[i * arity] = detail::map_to_domain(map, to[i * arity]);
+        detail::map_all_to_domain(function_.domain[argument], to, some.size(), arity);
       }
     }
   }

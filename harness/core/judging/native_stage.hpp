@@ -56,7 +56,10 @@ class NativeStage {
     using L = std::numeric_limits<Real>;
     constexpr int p = L::digits;
     constexpr int least_grid = L::min_exponent - 1;
-    constexpr int least_exponent = gradual ? least_grid - 200 : far ? -16200 : -900;
+    constexpr int least_exponent = gradual                             ? least_grid - 200
+                                   : far                               ? -16200
+                                   : std::same_as<W, DoubleDouble> ? double_double_least
+                                                                       : -900;
     constexpr int greatest_exponent = std::min(L::max_exponent - 1, far ? 16200 : 900);
     const W value = results_[i];
     const NumberBits bits = bits_of(value);
@@ -128,19 +131,18 @@ class NativeStage {
     for (; i < args.size(); ++i) args_[i] = args[i];
   }
 
-  // Below its least normal number float has one spacing; that of the wider types is too small for a double.
-  static constexpr bool gradual = std::numeric_limits<Real>::min_exponent > -800;
-  // Whether results may have exponents that double has not.
-#ifdef ULPGATE_HAVE_FLOAT128
-  static constexpr bool far = std::same_as<W, Binary128> && std::numeric_limits<Real>::min_exponent < -1100;
-#else
-  static constexpr bool far = false;
-#endif
+  // Whether W has exponents that double has not, and results or errors may have them.
+  static constexpr bool far =
+      !std::same_as<W, double> && !std::same_as<W, DoubleDouble> && !std::same_as<Real, float>;
+  // Below its least normal number a type has one spacing, which W can tell.
+  static constexpr bool gradual = std::same_as<Real, float> || (std::same_as<Real, double> && far);
   static constexpr int most_double_exponent = 900;
 
   // 2^e.
   [[nodiscard]] static W wide_power(int e) {
-    if constexpr (far) {
+    if constexpr (far && std::same_as<W, long double>) {
+      return std::ldexp(W(1), e);
+    } else if constexpr (far) {
       return std::bit_cast<W>(static_cast<unsigned __int128>(e + 16383) << 112U);
     } else {
       return static_cast<W>(power_of_two(e));
@@ -208,10 +210,12 @@ class NativeStage {
       return true;
     }
     // |value| < 2^(exponent + 1), in units of the least subnormal.
-    const int size = bits.exponent + 1 - (L::min_exponent - L::digits);
+    constexpr int least = L::min_exponent - L::digits;
+    const int exponent = std::same_as<W, DoubleDouble> && value == 0 ? double_double_zero : bits.exponent;
+    const int size = exponent + 1 - least;
     if (size > (gradual ? 0 : -20)) return false;
     if (gradual && size > -20) {
-      const double error = std::fabs(static_cast<double>(value)) * power_of_two(L::digits - L::min_exponent);
+      const double error = std::fabs(scaled(value, -least));
       const double slack = error * (bound * power_of_two(1 - significand_bits<W>) + 0x1p-48);
       finding = {Outcome::finite, error - slack, error + slack, 0, true, true};
       if (!(finding.greatest < 0.5)) return false;
@@ -221,7 +225,8 @@ class NativeStage {
     // A zero of W may be an exact one.
     if (!bits.normal && !(is_never_zero(id_) && std::isfinite(args[0]))) return false;
     // Nor is a zero for numbers of W's own range that the stage does not give (double_lanes.hpp).
-    const double greatest = power_of_two(std::max(size, bits.normal ? -900 : -700) + 1);
+    const bool known_size = bits.normal || std::same_as<W, DoubleDouble>;
+    const double greatest = power_of_two(std::max(size, known_size ? -900 : -700) + 1);
     finding = {Outcome::finite, smallest_error, greatest, 0, true, true};
     if (other_sign) finding = finding_of({Outcome::zero_sign, {}, 0, false});
     return true;

@@ -10,6 +10,7 @@
 
 #include "harness/core/judging/native_bits.hpp"
 #include "harness/core/judging/ordinary_errors.hpp"
+#include "reference/lanes/levels.hpp"
 
 namespace ulpgate {
 
@@ -21,43 +22,13 @@ using Limits = std::numeric_limits<float>;
 constexpr double unit = power_of_two(Limits::digits - 53) * (1 + 0x1p-20);
 // One ulp of double-double in ulp of binary64, with a margin.
 constexpr double wide_unit = power_of_two(53 - significand_bits<DoubleDouble>) * (1 + 0x1p-20);
+// In units of the least subnormal, what stands for a zero with a bound (double_double_functions.hpp).
+constexpr double wide_zero_error = power_of_two(double_double_zero + 1 - (-1074));
 // Stands for every error that is not zero and too small to tell.
 constexpr double tiny = 0x1p-1000;
 
-namespace baseline {
-constexpr std::size_t width = 2;
-// clang-format off
-#include "harness/core/judging/scan_vectors.inc"
-#include "harness/core/judging/ordinary_scan_kernel.inc"
-#include "harness/core/judging/scan_in_binary32.inc"
-// clang-format on
-}  // namespace baseline
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define ULPGATE_SCAN_LEVELS
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v3")
-namespace avx2 {
-constexpr std::size_t width = 4;
-// clang-format off
-#include "harness/core/judging/scan_vectors.inc"
-#include "harness/core/judging/ordinary_scan_kernel.inc"
-#include "harness/core/judging/scan_in_binary32.inc"
-// clang-format on
-}  // namespace avx2
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v4")
-namespace avx512 {
-constexpr std::size_t width = 8;
-// clang-format off
-#include "harness/core/judging/scan_vectors.inc"
-#include "harness/core/judging/ordinary_scan_kernel.inc"
-#include "harness/core/judging/scan_in_binary32.inc"
-// clang-format on
-}  // namespace avx512
-#pragma GCC pop_options
-#endif
+#define ULPGATE_LEVEL_FILE "harness/core/judging/scan_in_binary32.inc"
+#include "reference/lanes/each_level.inc"
 
 template <class Input, std::size_t (*scan)(const Input&, std::uint8_t*)>
 void scan_all(const Input& in, std::uint8_t* verdicts) {
@@ -67,17 +38,15 @@ void scan_all(const Input& in, std::uint8_t* verdicts) {
 
 // Of each instruction set that this processor has, the fastest last.
 template <class Scan>
-std::vector<Scan> supported([[maybe_unused]] Scan baseline, [[maybe_unused]] Scan avx2,
-                            [[maybe_unused]] Scan avx512) {
+std::vector<Scan> supported(Scan baseline, Scan avx2, Scan avx512) {
   std::vector<Scan> scans = {baseline};
-#ifdef ULPGATE_SCAN_LEVELS
-  if (__builtin_cpu_supports("x86-64-v3") != 0) scans.push_back(avx2);
-  if (__builtin_cpu_supports("x86-64-v4") != 0) scans.push_back(avx512);
-#endif
+  const std::size_t levels = instruction_levels();
+  if (levels > 1) scans.push_back(avx2);
+  if (levels > 2) scans.push_back(avx512);
   return scans;
 }
 
-#ifndef ULPGATE_SCAN_LEVELS
+#ifndef ULPGATE_LEVELS
 namespace avx2 = baseline;
 namespace avx512 = baseline;
 #endif

@@ -25,6 +25,8 @@ struct ScanLimits {
   // Of errors above 1/2 ULP.
   double error_over_condition;
   double max_distance;
+  // Whether a tie, an error of 1/2 ULP without a bound, raises no maximum.
+  bool half_is_seen = false;
 };
 
 struct ScanInput {

@@ -82,6 +82,17 @@ std::vector<double> many_doubles(std::size_t count) {
   return list;
 }
 
+// How many samples one of two scans settled and the other did not; what both did is the same.
+std::size_t differently_settled(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  std::size_t unsettled = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    ++unsettled;
+    EXPECT_TRUE(a[i] == verdict::unsettled || b[i] == verdict::unsettled) << i;
+  }
+  return unsettled;
+}
+
 TEST(OrdinaryScan, SettlesNothingThatTheStageWouldNotAndCountsItAlike) {
   const std::vector<float> args = many_floats();
   const FunctionTable<float>& functions = function_table<float>();
@@ -103,7 +114,7 @@ TEST(OrdinaryScan, SettlesNothingThatTheStageWouldNotAndCountsItAlike) {
         auto at_once = experienced_tally<float>(f, hint, args, largest);
         auto one_by_one = experienced_tally<float>(f, hint, args, largest);
         std::vector<std::uint8_t> verdicts(args.size());
-        scan(stage.scan_input(args, results, 0, at_once.scan_limits()), verdicts.data());
+        scan(stage.scan_input(args, results, 0, at_once.scan_limits(0)), verdicts.data());
         at_once.count_scanned(verdicts, 0);
         count_one_by_one(stage, args, results, verdicts, one_by_one);
         const Summary a = at_once.take()[0];
@@ -142,23 +153,25 @@ TEST(WideScan, SettlesNothingThatTheStageWouldNotAndCountsItAlike) {
     stage.load(args, count);
     std::vector<std::vector<std::uint8_t>> all;
     for (const WideScan scan : wide_scans()) {
-      const double largest = all.empty() ? 5.0 : 0.3;
-      RowHint hint(1);
-      hint.raise_max_error(0, {largest, 0});
-      hint.raise_error_over_condition(0, 100);
-      auto at_once = experienced_tally<double>(f, hint, args, largest);
-      auto one_by_one = experienced_tally<double>(f, hint, args, largest);
       std::vector<std::uint8_t> verdicts(count);
-      scan(stage.scan_input(args, results, 77, at_once.scan_limits()), verdicts.data());
-      at_once.count_scanned(verdicts, 77);
-      count_one_by_one(stage, args, results, verdicts, one_by_one, 77);
-      const Summary a = at_once.take()[0];
-      EXPECT_EQ(recorded_figures(a), recorded_figures(one_by_one.take()[0])) << f.name;
-      EXPECT_GT(static_cast<double>(a.samples), (largest > 1 ? 0.2 : 0.05) * count) << f.name;
+      // Of 1/2 ULP, a tie is no new maximum.
+      for (const double largest : {5.0, 0.5, 0.3}) {
+        RowHint hint(1);
+        hint.raise_max_error(0, {largest, 0});
+        hint.raise_error_over_condition(0, 100);
+        auto at_once = experienced_tally<double>(f, hint, args, largest);
+        auto one_by_one = experienced_tally<double>(f, hint, args, largest);
+        scan(stage.scan_input(args, results, 77, at_once.scan_limits(77)), verdicts.data());
+        at_once.count_scanned(verdicts, 77);
+        count_one_by_one(stage, args, results, verdicts, one_by_one, 77);
+        const Summary a = at_once.take()[0];
+        EXPECT_EQ(recorded_figures(a), recorded_figures(one_by_one.take()[0])) << f.name;
+        EXPECT_GT(static_cast<double>(a.samples), (largest > 1 ? 0.2 : 0.05) * count) << f.name;
+      }
       scan(stage.scan_input(args, results, 77, {5.0, 100, 10}), verdicts.data());
       verdicts.resize(count - 8);
       all.push_back(verdicts);
-      EXPECT_EQ(all.back(), all.front()) << f.name;
+      EXPECT_LT(differently_settled(all.front(), all.back()), count / 200) << f.name;
     }
   }
   EXPECT_GE(scanned, 28);
@@ -177,14 +190,7 @@ TEST(OrdinaryScan, WritesTheSameVerdictsWithEveryInstructionSet) {
     all.emplace_back(args.size());
     scan(stage.scan_input(args, results, 123456789, {1.5, 0.9, 1}), all.back().data());
     all.back().resize(args.size() - 16);
-    std::size_t unsettled = 0;
-    for (std::size_t i = 0; i < all.back().size(); ++i) {
-      const auto [one, other] = std::pair(all.back()[i], all.front()[i]);
-      if (one == other) continue;
-      ++unsettled;
-      EXPECT_TRUE(one == verdict::unsettled || other == verdict::unsettled) << args[i];
-    }
-    EXPECT_LT(unsettled, args.size() / 1000);
+    EXPECT_LT(differently_settled(all.front(), all.back()), args.size() / 1000);
   }
 }
 

@@ -32,9 +32,9 @@ class RowTally {
   // Whether other units of the row have found maxima, which spare this one most of its search for them.
   [[nodiscard]] bool knows_maxima() const { return hint_.max_error(0).index != no_index; }
 
-  // Of rows of one part.
-  [[nodiscard]] ScanLimits scan_limits() const {
-    return parts_[0].scan_limits(hint_.error_over_condition[0].load(std::memory_order_relaxed));
+  // Of rows of one part, for samples from index `first` on.
+  [[nodiscard]] ScanLimits scan_limits(std::uint64_t first) const {
+    return parts_[0].scan_limits(hint_.error_over_condition[0].load(std::memory_order_relaxed), first);
   }
   void count_scanned(std::span<const std::uint8_t> verdicts, std::uint64_t first) {
     parts_[0].count_scanned(verdicts, first);

@@ -96,10 +96,7 @@ class ScreenedJudging {
 
   static auto x87_stage([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
     if constexpr (NativeBits<long double>) {
-      // A stage that costs more than the one behind it and decides less.
-      const bool spared = std::same_as<Real, double> && s.double_double != nullptr && is_cheaper_than_x87(f);
-      return std::tuple(
-          NativeStage<Real, long double, Stage::x87_extended>(f, spared ? nullptr : s.x87_extended));
+      return std::tuple(NativeStage<Real, long double, Stage::x87_extended>(f, s.x87_extended));
     } else {
       return std::tuple();
     }
@@ -119,7 +116,8 @@ class ScreenedJudging {
       return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
                             x87_stage(f, s), binary128_stage(f, s));
     } else if constexpr (std::same_as<Real, double>) {
-      return std::tuple_cat(x87_stage(f, s), double_double_stage(f, s), binary128_stage(f, s));
+      // What double-double leaves are mostly the ends of the range, which the wider exponents of x87 reach.
+      return std::tuple_cat(double_double_stage(f, s), x87_stage(f, s), binary128_stage(f, s));
     } else if constexpr (std::same_as<Real, long double> && NativeBits<long double>) {
       return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, s));
     } else {
@@ -191,7 +189,8 @@ class ScreenedJudging {
   template <class Native>
   void settle_ordinary(const Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
     verdicts_.resize(batch.count());
-    scan_ordinary(native.scan_input(batch.args, batch.results, batch.first_index, tally.scan_limits()),
+    scan_ordinary(native.scan_input(batch.args, batch.results, batch.first_index,
+                                    tally.scan_limits(batch.first_index)),
                   verdicts_.data());
     const std::uint64_t past_check = batch.first_index % stride_;
     for (std::size_t i = past_check == 0 ? 0 : stride_ - past_check; i < batch.count(); i += stride_)

@@ -139,49 +139,77 @@ TEST(ScreenedJudging, CheapStagesDecideNearlyEverySample) {
   EXPECT_LT(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 20U);
 }
 
-// Where results leave float's range the double stage says what becomes of them: exact values down to half of
-// the least subnormal and up to the largest number, and beyond.
-TEST(ScreenedJudging, FloatNextToTheEndsOfItsRangeNeedsNoMpfr) {
-  struct Case {
-    FunctionId id;
-    float low, high;
-    // As of a library that knows no signs of zeros.
-    bool zeros_are_positive = false;
-  };
-  const FunctionTable<float>& functions = function_table<float>();
+// Arguments whose results leave the range.
+template <class Real>
+struct RangeEnd {
+  FunctionId id;
+  Real low, high;
+  // As of a library that knows no signs of zeros.
+  bool zeros_are_positive = false;
+};
+
+template <class Real>
+void expect_no_mpfr(const std::vector<RangeEnd<Real>>& ends) {
+  const FunctionTable<Real>& functions = function_table<Real>();
   constexpr std::size_t count = 2000;
-  for (const auto& [id, low, high, zeros_are_positive] : {
-           Case{FunctionId::erfc, 9, 11},
-           Case{FunctionId::tgamma, -43.9F, -38.1F},
-           Case{FunctionId::tgamma, -43.9F, -38.1F, true},
-           Case{FunctionId::tgamma, -1000.9F, -900.1F, true},
-           Case{FunctionId::tgamma, 34, 36},
-           Case{FunctionId::tgamma, 0x1p-129F, 0x1p-126F},
-           Case{FunctionId::lgamma, 0x1p119F, 0x1p123F},
-           Case{FunctionId::exp, 87, 90},
-           Case{FunctionId::exp, -105, -86},
-           Case{FunctionId::sinh, -91, -87},
-       }) {
+  for (const auto& [id, low, high, zeros_are_positive] : ends) {
     const FunctionInfo& f = info_of(id);
-    std::vector<float> args(count);
-    std::vector<float> results(count);
+    std::vector<Real> args(count);
+    std::vector<Real> results(count);
     std::vector<std::uint8_t> threw(count);
     for (std::size_t i = 0; i < count; ++i)
-      args[i] = low + (high - low) * (static_cast<float>(i) / static_cast<float>(count));
+      args[i] = low + (high - low) * (static_cast<Real>(i) / static_cast<Real>(count));
     functions[static_cast<std::size_t>(id)](args.data(), results.data(), threw.data(), count);
-    for (float& y : results)
+    for (Real& y : results)
       if (zeros_are_positive && y == 0) y = 0;
-    const Batch<float> batch{f, args, results, threw, 1};
+    const Batch<Real> batch{f, args, results, threw, 1};
     RowHint hint(1);
-    RowTally<float> full_tally(f, hint);
-    FullJudging<float>(f).judge(batch, full_tally);
-    RowTally<float> tally(f, hint);
-    ScreenedJudging<float> judging(f);
+    RowTally<Real> full_tally(f, hint);
+    FullJudging<Real>(f).judge(batch, full_tally);
+    RowTally<Real> tally(f, hint);
+    ScreenedJudging<Real> judging(f);
     judging.judge(batch, tally);
     EXPECT_EQ(recorded_figures(tally.take()[0]), recorded_figures(full_tally.take()[0])) << f.name;
     EXPECT_LT(judging.decided()[static_cast<std::size_t>(Stage::mpfr)], count / 100) << f.name << " " << low;
   }
 }
+
+// The double stage says what becomes of them: exact values down to half of the least subnormal and up to the
+// largest number, and beyond.
+TEST(ScreenedJudging, FloatNextToTheEndsOfItsRangeNeedsNoMpfr) {
+  expect_no_mpfr<float>({
+      {FunctionId::erfc, 9, 11},
+      {FunctionId::tgamma, -43.9F, -38.1F},
+      {FunctionId::tgamma, -43.9F, -38.1F, true},
+      {FunctionId::tgamma, -1000.9F, -900.1F, true},
+      {FunctionId::tgamma, 34, 36},
+      {FunctionId::tgamma, 0x1p-129F, 0x1p-126F},
+      {FunctionId::lgamma, 0x1p119F, 0x1p123F},
+      {FunctionId::exp, 87, 90},
+      {FunctionId::exp, -105, -86},
+      {FunctionId::sinh, -91, -87},
+  });
+}
+
+#ifdef ULPGATE_HAVE_FLOAT128
+// Those with wider exponents do.
+TEST(ScreenedJudging, DoubleNextToTheEndsOfItsRangeNeedsNoMpfr) {
+  expect_no_mpfr<double>({
+      {FunctionId::erfc, 24, 30},
+      {FunctionId::tgamma, -183.9, -170.1},
+      {FunctionId::tgamma, 169, 173},
+      {FunctionId::tgamma, 0x1p-1025, 0x1p-1022},
+      {FunctionId::lgamma, 0x1p1010, 0x1p1016},
+      {FunctionId::exp, 690, 730},
+      {FunctionId::exp, -780, -650},
+      {FunctionId::exp2, -1120, -950},
+      {FunctionId::expm1, 690, 730},
+      {FunctionId::sinh, -730, -690},
+      {FunctionId::cosh, 690, 730},
+      {FunctionId::log, 0x1p-1074, 0x1p-1000},
+  });
+}
+#endif
 
 TEST(RecordedError, IsRoundedUpToFortyBits) {
   struct Case {

@@ -60,12 +60,15 @@ class Tally {
   void raise_error_over_condition(double ratio) {
     summary_.max_error_over_condition = std::max(summary_.max_error_over_condition, ratio);
   }
-  // What a scan may settle now; `ratio_seen` as of need().
-  [[nodiscard]] ScanLimits scan_limits(double ratio_seen) const {
-    return {largest_error(), ratio_seen, summary_.max_distance};
+  // What a scan of samples from index `first` on may settle now; `ratio_seen` as of need().
+  [[nodiscard]] ScanLimits scan_limits(double ratio_seen, std::uint64_t first) const {
+    const Maximum& most = most_seen();
+    // Of equal errors the earliest is recorded.
+    const bool half_is_seen = most.value > 0.5 || (most.value == 0.5 && most.index < first);
+    return {most.value, ratio_seen, summary_.max_distance, half_is_seen};
   }
   // An error that could be as large as this is no ordinary one.
-  [[nodiscard]] double largest_error() const { return std::max(seen_.value, summary_.max_error.value); }
+  [[nodiscard]] double largest_error() const { return most_seen().value; }
   [[nodiscard]] Maximum max_error() const { return summary_.max_error; }
   [[nodiscard]] OracleComparison& oracle() { return summary_.oracle; }
   // The summary of everything counted; ends the tally.
@@ -100,8 +103,12 @@ class Tally {
     const double threshold = rounding_threshold(bucket, k);
     return (f.least > threshold) == (f.greatest > threshold);
   }
+  // Of equal ones that of this unit.
+  [[nodiscard]] const Maximum& most_seen() const {
+    return seen_.value > summary_.max_error.value ? seen_ : summary_.max_error;
+  }
   [[nodiscard]] bool could_raise_maximum(const Finding& f, std::uint64_t k) const {
-    const Maximum& most = seen_.value > summary_.max_error.value ? seen_ : summary_.max_error;
+    const Maximum& most = most_seen();
     if (!reaches(f.greatest, most.value)) return false;
     const double error = recorded({f.greatest}).value;
     // The sample that made the maximum says so again when its unit is evaluated once more.
