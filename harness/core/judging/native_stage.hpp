@@ -71,13 +71,13 @@ class NativeStage {
       if (bound == 0 && got == 0 && value == 0 && std::signbit(got) == signbit_of(value)) return true;
       return find_special(args, bits, value, bound, got, finding);
     }
-    if (!(bound >= 0) || !bits.normal || !(got_bits.normal || gradual) || bits.exponent < least_exponent ||
-        bits.exponent > greatest_exponent || may_overflow(bits, value) ||
-        std::abs(got_bits.exponent - bits.exponent) > 50 || (got < 0) != (value < 0)) {
-      return false;
-    }
     const int grid = gradual ? std::max(bits.exponent, least_grid) : bits.exponent;
     const int got_grid = gradual ? std::max(got_bits.exponent, least_grid) : got_bits.exponent;
+    if (!(bound >= 0) || !bits.normal || !(got_bits.normal || gradual) || bits.exponent < least_exponent ||
+        bits.exponent > greatest_exponent || may_overflow(bits, value) || std::abs(got_grid - grid) > 50 ||
+        (got < 0) != (value < 0)) {
+      return false;
+    }
     const W difference = static_cast<W>(got) - value;
     // Of a far exponent too small for a double, and then exact only where it is 0.
     const auto rounded = static_cast<double>(difference);
@@ -158,10 +158,11 @@ class NativeStage {
     return static_cast<double>(x) * power_of_two(e);
   }
 
-  // Where the exponent of a value says that it overflows: bounds are below 2^20 ulp of W, which is little
-  // next to the half ulp of float that lies between its largest number and this power of two.
-  static constexpr int least_overflow =
-      std::numeric_limits<Real>::max_exponent + (std::same_as<Real, float> ? 0 : 1);
+  // Where the exponent of a value says that it overflows: half an ulp lies between the largest number and this power of
+  // two, to which a small bound is little.
+  [[nodiscard]] static int least_overflow(double bound) {
+    return std::numeric_limits<Real>::max_exponent + (bound * unit <= 0.125 ? 0 : 1);
+  }
 
   // Whether the value is so close to the end of the range, or beyond, that it may be rounded to infinity.
   [[nodiscard]] static bool may_overflow(const NumberBits& bits, W value) {
@@ -204,7 +205,7 @@ class NativeStage {
       // A pole, or beyond the range by more than the bound.  Where W has the exponents of Real its infinity
       // says too little.
       const bool infinite = value - value != 0;
-      if (infinite ? std::same_as<Real, long double> : !bits.normal || bits.exponent < least_overflow)
+      if (infinite ? std::same_as<Real, long double> : !bits.normal || bits.exponent < least_overflow(bound))
         return false;
       finding = finding_of({});
       return true;

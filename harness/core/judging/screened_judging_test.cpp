@@ -139,11 +139,11 @@ TEST(ScreenedJudging, CheapStagesDecideNearlyEverySample) {
   EXPECT_LT(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 20U);
 }
 
-// Arguments whose results leave the range.
+// Arguments whose results leave the range, ordinary ones first: where nothing is known yet, each could be a maximum.
 template <class Real>
 struct RangeEnd {
   FunctionId id;
-  Real low, high;
+  Real first, last;
   // As of a library that knows no signs of zeros.
   bool zeros_are_positive = false;
 };
@@ -152,13 +152,13 @@ template <class Real>
 void expect_no_mpfr(const std::vector<RangeEnd<Real>>& ends) {
   const FunctionTable<Real>& functions = function_table<Real>();
   constexpr std::size_t count = 2000;
-  for (const auto& [id, low, high, zeros_are_positive] : ends) {
+  for (const auto& [id, first, last, zeros_are_positive] : ends) {
     const FunctionInfo& f = info_of(id);
     std::vector<Real> args(count);
     std::vector<Real> results(count);
     std::vector<std::uint8_t> threw(count);
     for (std::size_t i = 0; i < count; ++i)
-      args[i] = low + (high - low) * (static_cast<Real>(i) / static_cast<Real>(count));
+      args[i] = first + (last - first) * (static_cast<Real>(i) / static_cast<Real>(count));
     functions[static_cast<std::size_t>(id)](args.data(), results.data(), threw.data(), count);
     for (Real& y : results)
       if (zeros_are_positive && y == 0) y = 0;
@@ -170,7 +170,7 @@ void expect_no_mpfr(const std::vector<RangeEnd<Real>>& ends) {
     ScreenedJudging<Real> judging(f);
     judging.judge(batch, tally);
     EXPECT_EQ(recorded_figures(tally.take()[0]), recorded_figures(full_tally.take()[0])) << f.name;
-    EXPECT_LT(judging.decided()[static_cast<std::size_t>(Stage::mpfr)], count / 100) << f.name << " " << low;
+    EXPECT_LT(judging.decided()[static_cast<std::size_t>(Stage::mpfr)], count / 50) << f.name << " " << first;
   }
 }
 
@@ -196,15 +196,15 @@ TEST(ScreenedJudging, FloatNextToTheEndsOfItsRangeNeedsNoMpfr) {
 TEST(ScreenedJudging, DoubleNextToTheEndsOfItsRangeNeedsNoMpfr) {
   expect_no_mpfr<double>({
       {FunctionId::erfc, 24, 30},
-      {FunctionId::tgamma, -183.9, -170.1},
+      {FunctionId::tgamma, -170.1, -183.9},
       {FunctionId::tgamma, 169, 173},
-      {FunctionId::tgamma, 0x1p-1025, 0x1p-1022},
+      {FunctionId::tgamma, 0x1p-1022, 0x1p-1025},
       {FunctionId::lgamma, 0x1p1010, 0x1p1016},
       {FunctionId::exp, 690, 730},
-      {FunctionId::exp, -780, -650},
-      {FunctionId::exp2, -1120, -950},
+      {FunctionId::exp, -650, -780},
+      {FunctionId::exp2, -950, -1120},
       {FunctionId::expm1, 690, 730},
-      {FunctionId::sinh, -730, -690},
+      {FunctionId::sinh, -690, -730},
       {FunctionId::cosh, 690, 730},
       {FunctionId::log, 0x1p-1074, 0x1p-1000},
   });
