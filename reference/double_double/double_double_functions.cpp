@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "reference/double_double/constants.hpp"
+#include "reference/multi_word/constants.hpp"
 #include "reference/lanes/levels.hpp"
 
 #ifdef __clang__
@@ -15,6 +15,9 @@
 namespace ulpgate::dd {
 
 namespace {
+
+using multi_word::least_log_index;
+using multi_word::Terms;
 
 #define ULPGATE_LEVEL_FILE "reference/double_double/instruction_set.inc"
 #include "reference/lanes/each_level.inc"

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "reference/double_double/double_double.hpp"
+#include "reference/multi_word/double_double.hpp"
 #include "reference/functions/function_info.hpp"
 
 namespace ulpgate {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "reference/double_double/constants.hpp"
+#include "reference/multi_word/constants.hpp"
 #include "reference/lanes/levels.hpp"
 #include "reference/oracle/oracle.hpp"
 
@@ -230,7 +230,7 @@ TEST(DoubleDouble, TakesNumbersOf64BitsWithoutError) {
 }
 
 TEST(DoubleDoubleConstants, AreWhatMpfrSays) {
-  const auto& c = dd::constants();
+  const auto& c = multi_word::constants<DoubleDouble>();
   EXPECT_EQ(c.power[32].hi, 1);
   EXPECT_EQ(c.power[32].lo, 0);
   EXPECT_EQ(c.power_less_1[32].hi, 0);

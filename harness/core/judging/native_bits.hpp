@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "reference/double_double/double_double.hpp"
+#include "reference/multi_word/double_double.hpp"
 #include "reference/native/native_functions.hpp"
 
 namespace ulpgate {

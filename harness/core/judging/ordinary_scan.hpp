@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/core/judging/exact_results.hpp"
-#include "reference/double_double/double_double.hpp"
+#include "reference/multi_word/double_double.hpp"
 
 namespace ulpgate {
 

@@ -1,0 +1,44 @@
+// Functions in triple-double.
+#include "reference/triple_double/triple_double_functions.hpp"
+
+#include <cstdint>
+#include <utility>
+
+#include "reference/multi_word/constants.hpp"
+#include "reference/lanes/levels.hpp"
+
+#ifdef __clang__
+// What is written for numbers and vectors has operands of & that may be bool.
+#pragma clang diagnostic ignored "-Wbitwise-instead-of-logical"
+#endif
+
+namespace ulpgate::td {
+
+namespace {
+
+using multi_word::least_log_index;
+using multi_word::Terms;
+
+#define ULPGATE_LEVEL_FILE "reference/triple_double/instruction_set.inc"
+#include "reference/lanes/each_level.inc"
+
+}  // namespace
+
+}  // namespace ulpgate::td
+
+namespace ulpgate {
+
+TripleDoubleFunction triple_double_function(FunctionId id, [[maybe_unused]] std::size_t level) {
+#ifdef ULPGATE_LEVELS
+  if (level == 2) return td::avx512::function_of(id);
+  if (level == 1) return td::avx2::function_of(id);
+#endif
+  return td::baseline::function_of(id);
+}
+
+TripleDoubleFunction triple_double_function(FunctionId id) {
+  static const std::size_t best = instruction_levels() - 1;
+  return triple_double_function(id, best);
+}
+
+}  // namespace ulpgate
