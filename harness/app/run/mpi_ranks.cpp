@@ -17,7 +17,7 @@
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/store/checkpoint_text.hpp"
-#include "harness/core/judging/finding.hpp"
+#include "harness/core/stages/finding.hpp"
 
 namespace ulpgate::app {
 

@@ -16,7 +16,7 @@
 #include "harness/app/shell/failure.hpp"
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
-#include "harness/core/judging/finding.hpp"
+#include "harness/core/stages/finding.hpp"
 #include "harness/core/watch/heartbeat.hpp"
 #include "harness/foreign/foreign_failure.hpp"
 

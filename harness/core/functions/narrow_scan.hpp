@@ -11,7 +11,7 @@
 #include "harness/core/arguments/narrow_arguments.hpp"
 #include "harness/core/arguments/sampling.hpp"
 #include "harness/core/functions/calls_in_hand.hpp"
-#include "harness/core/judging/native_bits.hpp"
+#include "harness/core/stages/native_bits.hpp"
 #include "kernels/math/function_table.hpp"
 #include "reference/types/real_types.hpp"
 

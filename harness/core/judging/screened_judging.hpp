@@ -9,7 +9,8 @@
 #include <tuple>
 
 #include "harness/core/judging/judging.hpp"
-#include "harness/core/judging/native_stage.hpp"
+#include "harness/core/stages/native_stage.hpp"
+#include "harness/core/stages/triple_stage.hpp"
 #include "reference/double_double/double_double_functions.hpp"
 #include "reference/text/text.hpp"
 
@@ -23,6 +24,7 @@ struct ScreenStages {
 #ifdef ULPGATE_HAVE_FLOAT128
   BoundedFunction<Binary128> binary128 = nullptr;
 #endif
+  TripleDoubleFunction triple_double = nullptr;
   ExactFunction mpfr = exact_value;
 };
 
@@ -37,6 +39,7 @@ struct ScreenStages {
 #ifdef ULPGATE_HAVE_FLOAT128
   stages.binary128 = bounded_function<Binary128>(f.id);
 #endif
+  stages.triple_double = triple_double_function(f.id);
   return stages;
 }
 
@@ -120,6 +123,10 @@ class ScreenedJudging {
       return std::tuple_cat(double_double_stage(f, s), x87_stage(f, s), binary128_stage(f, s));
     } else if constexpr (std::same_as<Real, long double> && NativeBits<long double>) {
       return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, s));
+#ifdef ULPGATE_HAVE_FLOAT128
+    } else if constexpr (Float128Backed<Real>) {
+      return std::tuple(TripleStage(s.triple_double));
+#endif
     } else {
       return std::tuple();
     }

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "harness/core/judging/finding.hpp"
-#include "harness/core/judging/ordinary_errors.hpp"
-#include "harness/core/judging/ordinary_scan.hpp"
+#include "harness/core/stages/finding.hpp"
+#include "harness/core/stages/ordinary_errors.hpp"
+#include "harness/core/stages/ordinary_scan.hpp"
 #include "harness/core/records/summary.hpp"
 
 namespace ulpgate {

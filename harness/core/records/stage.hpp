@@ -8,9 +8,9 @@ namespace ulpgate {
 
 // References in the order of their cost.  A sample is decided by the first at which no statistic can depend
 // on what the reference leaves open.
-enum class Stage { binary64, x87_extended, double_double, binary128, mpfr, full };
-inline constexpr std::array<std::string_view, 6> stage_names = {"binary64",  "x87_extended", "double_double",
-                                                                "binary128", "mpfr",         "full"};
+enum class Stage { binary64, x87_extended, double_double, binary128, triple_double, mpfr, full };
+inline constexpr std::array<std::string_view, 7> stage_names = {
+    "binary64", "x87_extended", "double_double", "binary128", "triple_double", "mpfr", "full"};
 inline constexpr std::size_t stage_count = stage_names.size();
 [[nodiscard]] inline std::string_view name_of(Stage s) {
   return stage_names[static_cast<std::size_t>(s)];

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "harness/core/judging/ordinary_errors.hpp"
+#include "harness/core/stages/ordinary_errors.hpp"
 #include "harness/core/records/summary_text.hpp"
 
 namespace ulpgate {

@@ -1,6 +1,6 @@
 // Tests of the scans: what they settle, NativeStage settles too, and both count it alike.
 // Tests of the tally: large errors, when it asks for a condition number, and what stages may say to it.
-#include "harness/core/judging/ordinary_scan.hpp"
+#include "harness/core/stages/ordinary_scan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <random>
 
-#include "harness/core/judging/exact_results.hpp"
-#include "harness/core/judging/native_stage.hpp"
+#include "harness/core/stages/exact_results.hpp"
+#include "harness/core/stages/native_stage.hpp"
 #include "harness/core/judging/row_tally.hpp"
 #include "harness/core/judging/screened_judging.hpp"
 #include "harness/core/judging/tally.hpp"

@@ -1,6 +1,6 @@
 // The scan, for several instruction sets.  Every operation is exactly rounded and none is contracted: where
 // two of them settle a sample they write the same verdict.
-#include "harness/core/judging/ordinary_scan.hpp"
+#include "harness/core/stages/ordinary_scan.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "harness/core/judging/native_bits.hpp"
-#include "harness/core/judging/ordinary_errors.hpp"
+#include "harness/core/stages/native_bits.hpp"
+#include "harness/core/stages/ordinary_errors.hpp"
 #include "reference/lanes/levels.hpp"
 
 namespace ulpgate {
@@ -27,7 +27,7 @@ constexpr double wide_zero_error = power_of_two(double_double_zero + 1 - (-1074)
 // Stands for every error that is not zero and too small to tell.
 constexpr double tiny = 0x1p-1000;
 
-#define ULPGATE_LEVEL_FILE "harness/core/judging/scan_in_binary32.inc"
+#define ULPGATE_LEVEL_FILE "harness/core/stages/scan_in_binary32.inc"
 #include "reference/lanes/each_level.inc"
 
 template <class Input, std::size_t (*scan)(const Input&, std::uint8_t*)>

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "harness/core/judging/exact_results.hpp"
-#include "harness/core/judging/finding.hpp"
-#include "harness/core/judging/native_bits.hpp"
-#include "harness/core/judging/ordinary_scan.hpp"
+#include "harness/core/stages/exact_results.hpp"
+#include "harness/core/stages/finding.hpp"
+#include "harness/core/stages/native_bits.hpp"
+#include "harness/core/stages/ordinary_scan.hpp"
 #include "harness/core/records/stage.hpp"
 
 namespace ulpgate {
@@ -236,21 +236,6 @@ class NativeStage {
   // One ulp of W in ulp of Real, with a margin.
   static constexpr double unit =
       power_of_two(std::numeric_limits<Real>::digits - significand_bits<W>) * (1 + 0x1p-20);
-
-  // On one grid the correctly rounded value is the nearest number of steps away; across a power of two the
-  // steps have two sizes.
-  static void set_distance(Finding& f, bool one_grid) {
-    const double low = std::floor(f.least + 0.5);
-    const double high = std::floor(f.greatest + 0.5);
-    if (one_grid && low == high && f.least != low - 0.5) {
-      f.distance = low;
-    } else if (one_grid && f.least == 0.5 && f.greatest == 0.5) {
-      f.distance = f.correctly_rounded ? 0 : 1;
-    } else {
-      f.distance = 2 * f.greatest + 2;
-      f.distance_known = false;
-    }
-  }
 
   FunctionId id_;
   BoundedFunction<W> function_;

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "harness/core/judging/exact_results.hpp"
+#include "harness/core/stages/exact_results.hpp"
 #include "reference/multi_word/double_double.hpp"
 
 namespace ulpgate {

@@ -1,6 +1,7 @@
 // Finding: what a stage of the reference knows of one part of one result.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -36,6 +37,21 @@ struct Finding {
            (distance_known ? j.distance == distance : j.distance <= distance);
   }
 };
+
+// Sets the distance of a finding whose error says it.  On one grid the correctly rounded value is the nearest number of
+// steps away; across a power of two the steps have two sizes.
+inline void set_distance(Finding& f, bool one_grid) {
+  const double low = std::floor(f.least + 0.5);
+  const double high = std::floor(f.greatest + 0.5);
+  if (one_grid && low == high && f.least != low - 0.5) {
+    f.distance = low;
+  } else if (one_grid && f.least == 0.5 && f.greatest == 0.5) {
+    f.distance = f.correctly_rounded ? 0 : 1;
+  } else {
+    f.distance = 2 * f.greatest + 2;
+    f.distance_known = false;
+  }
+}
 
 [[nodiscard]] inline Finding finding_of(const Judgement& j) {
   return {j.outcome, j.error.value, j.error.value, j.distance, true, j.correctly_rounded};
