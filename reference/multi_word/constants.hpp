@@ -47,13 +47,13 @@ struct Constants {
   std::array<Word, 18> atanh_series, atan_series;
   // Stirling's series, DLMF 5.11.1: stirling[k - 1] = B_2k / (2k (2k - 1)), and the logarithms of sqrt(2 pi)
   // and pi.
-  std::array<Word, 14> stirling;
+  std::array<Word, 20> stirling;
   Word log_sqrt_two_pi, log_pi;
   // 2 / sqrt(pi), 1 / sqrt(pi), and (-1)^n / (n! (2n + 1)), the coefficients of erf, DLMF 7.6.1.
   Word two_over_sqrt_pi, inverse_sqrt_pi;
-  std::array<Word, 31> erf_series;
+  std::array<Word, 40> erf_series;
   // Taylor's coefficients of e^(x^2) erfc(x) at x = 1 + i/4.
-  std::array<std::array<Word, 34>, 33> scaled_erfc;
+  std::array<std::array<Word, words == 2 ? 34 : 47>, words == 2 ? 33 : 41> scaled_erfc;
   // 2 / pi = sum of words[i] 2^(-64 (i + 1)).
   std::array<std::uint64_t, 24> two_over_pi;
 };

@@ -125,7 +125,7 @@ class ScreenedJudging {
       return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, s));
 #ifdef ULPGATE_HAVE_FLOAT128
     } else if constexpr (Float128Backed<Real>) {
-      return std::tuple(TripleStage(s.triple_double));
+      return std::tuple(TripleStage(f, s.triple_double));
 #endif
     } else {
       return std::tuple();

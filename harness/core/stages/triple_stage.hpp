@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/core/records/stage.hpp"
+#include "harness/core/stages/exact_results.hpp"
 #include "harness/core/stages/finding.hpp"
 #include "harness/core/stages/native_bits.hpp"
 #include "reference/triple_double/triple_double_functions.hpp"
@@ -20,7 +21,8 @@ class TripleStage {
  public:
   static constexpr Stage id = Stage::triple_double;
 
-  explicit TripleStage(TripleDoubleFunction function) : function_(function) {}
+  TripleStage(FunctionId f, TripleDoubleFunction function)
+      : id_(f), function_(function), inexact_(inexact_results(f)) {}
   [[nodiscard]] bool exists() const { return function_ != nullptr; }
 
   // Evaluates the points of `args`, count * arity values.
@@ -36,10 +38,11 @@ class TripleStage {
     return static_cast<long double>(results_[i].hi) + static_cast<long double>(results_[i].mid);
   }
 
-  // As NativeStage::find.  No say is had of zeros, infinities and what is far from double's exponents, of results that
-  // are too close to the value to tell and of what lies next to a power of two.
-  [[nodiscard]] bool find(std::size_t i, const Float128Real* /*args*/, const Float128Real& result,
+  // As NativeStage::find.  No say is had of zeros, infinities and what is far from double's exponents, and of most results
+  // that are too close to the value to tell.
+  [[nodiscard]] bool find(std::size_t i, const Float128Real* args, const Float128Real& result,
                           Finding& finding) const {
+    if (id_ == FunctionId::add || id_ == FunctionId::sub) return find_sum(args, result, finding);
     const TripleDouble value = results_[i];
     const TripleDouble got = triple_of(result.backend().value());
     const double bound = bounds_[i];
@@ -49,23 +52,26 @@ class TripleStage {
         std::abs(got_binade.exponent - binade.exponent) > 1) {
       return false;
     }
-    // Of neighbours the first difference is exact, and what the others leave out is 2^-157 of the value.
-    const double first = got.hi - value.hi;
-    const double middle = got.mid - value.mid;
-    const double back = middle - got.mid;
-    const double middle_rest = (got.mid - (middle - back)) + (-value.mid - back);
-    const double sum = first + middle;
-    const double sum_back = sum - first;
-    const double sum_rest = (first - (sum - sum_back)) + (middle - sum_back);
-    const double difference = sum + (sum_rest + (middle_rest + (got.lo - value.lo)));
-    const double error = std::fabs(difference) * power_of_two(digits - 1 - binade.exponent);
+    const double ulps = power_of_two(digits - 1 - binade.exponent);
+    const double error = std::fabs(difference(got, value)) * ulps;
     const double slack = bound * unit + 0x1p-44 + error * 0x1p-48;
-    finding = {Outcome::finite, error - slack, error + slack, 0, true, true};
-    if (finding.least <= 0) return false;
-    if (finding.greatest < 0.5) return true;
-    if (!(finding.least > 0.5)) return false;
+    double least = error - slack;
+    double greatest = error + slack;
+    // Next to a power of two the exact value may lie in the other binade, where the spacing is half or double.
+    const bool next_to_power = binade.is_power && std::fabs(value.mid + value.lo) * ulps <= 2 * slack;
+    if (next_to_power) {
+      least = (error - 2 * slack) / 2;
+      greatest = 2 * (error + 2 * slack);
+    }
+    if (least <= 0) {
+      if (!is_inexact(i, got)) return false;
+      least = smallest_error;
+    }
+    finding = {Outcome::finite, least, greatest, 0, true, true};
+    if (greatest < 0.5) return true;
+    if (!(least > 0.5)) return false;
     finding.correctly_rounded = false;
-    set_distance(finding, got_binade.exponent == binade.exponent);
+    set_distance(finding, got_binade.exponent == binade.exponent && !next_to_power);
     return true;
   }
 
@@ -96,19 +102,74 @@ class TripleStage {
     return {hi, mid, (c - (bc - b)) - (mid - rest)};
   }
 
-  // The binade of a number; below a power of two, where its other parts are of the other sign, lies another.
+  // The error of a rounded sum is a number, too (Knuth's two-sum), ties and exact sums included.
+  [[nodiscard]] bool find_sum(const Float128Real* args, const Float128Real& result, Finding& finding) const {
+    const Binary128 x = args[0].backend().value();
+    const Binary128 y = id_ == FunctionId::sub ? -args[1].backend().value() : args[1].backend().value();
+    const Binary128 got = result.backend().value();
+    const NumberBits bits = bits_of(got);
+    if (x + y != got || !bits.normal || bits.exponent > 16000 || bits.exponent < -16000) return false;
+    const Binary128 back = got - x;
+    const Binary128 rest = (x - (got - back)) + (y - back);
+    // A power of two has its spacing above; below it is half of that.
+    const auto significand = std::bit_cast<unsigned __int128>(got) << 16U;
+    const bool below = significand == 0 && rest != 0 && (rest < 0) != (got < 0);
+    const int grid = bits.exponent - (below ? 1 : 0);
+    const auto power = std::bit_cast<Binary128>(static_cast<unsigned __int128>(digits - 1 - grid + 16383) << 112U);
+    const Binary128 exact = rest < 0 ? -rest * power : rest * power;
+    const auto error = static_cast<double>(exact);
+    const double slack = static_cast<Binary128>(error) == exact ? 0 : error * 0x1p-52;
+    finding = {Outcome::finite, error - slack, error + slack, 0, true, true};
+    // Too small for a double, or for the full reference to see.
+    constexpr double tiny = 0x1p-300;
+    if (rest != 0 && error < tiny) {
+      finding.least = smallest_error;
+      finding.greatest = tiny;
+    }
+    return true;
+  }
+
+  // Of neighbours, within 2^-157 of them: the first difference is exact.
+  static double difference(const TripleDouble& x, const TripleDouble& y) {
+    const double first = x.hi - y.hi;
+    const double middle = x.mid - y.mid;
+    const double back = middle - x.mid;
+    const double middle_rest = (x.mid - (middle - back)) + (-y.mid - back);
+    const double sum = first + middle;
+    const double sum_back = sum - first;
+    const double sum_rest = (first - (sum - sum_back)) + (middle - sum_back);
+    return sum + (sum_rest + (middle_rest + (x.lo - y.lo)));
+  }
+
+  // The binade of a number: where hi is a power of two and what follows is of the other sign, the one below.
   struct Binade {
     int exponent;
+    bool is_power;
     bool known;
   };
   static Binade binade_of(const TripleDouble& x) {
     const auto bits = std::bit_cast<std::uint64_t>(x.hi);
     const int e = static_cast<int>((bits >> 52U) & 0x7ffU) - 1023;
     const bool is_power = (bits & 0xfffffffffffffU) == 0;
-    return {e, e >= -most_exponent && e <= most_exponent && !is_power};
+    const bool below = is_power && x.mid != 0 && (x.mid < 0) != (x.hi < 0);
+    return {below ? e - 1 : e, is_power, e >= -most_exponent && e <= most_exponent};
   }
 
+  // Whether a result of a function of one argument is surely not the exact value.
+  [[nodiscard]] bool is_inexact(std::size_t i, const TripleDouble& got) const {
+    if (args_.size() != results_.size()) return false;
+    const TripleDouble& x = args_[i];
+    const double size = std::fabs(x.hi);
+    const bool is_one = x.hi == 1 && x.mid == 0;
+    const bool is_double = got.mid == 0;
+    const double result = std::fabs(got.hi);
+    return size > 0 && ((!is_one && size < inexact_.arguments_below) ||
+                        (is_double && (result == inexact_.result_a || result == inexact_.result_b)));
+  }
+
+  FunctionId id_;
   TripleDoubleFunction function_;
+  InexactResults inexact_;
   std::vector<TripleDouble> args_;
   std::vector<TripleDouble> results_;
   std::vector<double> bounds_;
