@@ -30,14 +30,15 @@ if_full() { # DIR
   [ "${free:-65537}" -gt 65536 ] || printf ' (%s has %s KiB left: make room, then run this again)' "$1" "$free"
 }
 
-# build PRESET [cmake option...]
+# build PRESET [cmake option...]; of TARGETS alone where the variable says so.
 build() {
-  local preset="$1"
+  local preset="$1" targets=()
   shift
+  [ -z "${TARGETS:-}" ] || read -ra targets <<<"--target $TARGETS"
   step "build ($preset)"
   cmake -S "$ROOT" --preset "$preset" "$@" >"$ROOT/build/$preset.configure.log" 2>&1 ||
     { cat "$ROOT/build/$preset.configure.log" >&2; fail "cmake --preset $preset$(if_full "$ROOT/build")"; }
-  cmake --build "$ROOT/build/$preset" --parallel "$JOBS" || fail "the $preset build$(if_full "$ROOT/build")"
+  cmake --build "$ROOT/build/$preset" --parallel "$JOBS" "${targets[@]}" || fail "the $preset build$(if_full "$ROOT/build")"
 }
 
 # build_with_tests PRESET: a build as the tests and the pipelines want it.

@@ -69,17 +69,26 @@ void lying_double_double(const DoubleDouble* args, DoubleDouble* results, double
   }
 }
 
+void lying_triple_double(const TripleDouble* args, TripleDouble* results, double* bounds, std::size_t count) {
+  triple_double_function(FunctionId::exp)(args, results, bounds, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    results[i].hi += results[i].hi / 65536;
+    bounds[i] = 0.5;
+  }
+}
+
 // Judges exp(0.5) as the point with this index.
 template <class Real>
 void judge_exp(const ScreenStages& stages, std::uint64_t index) {
-  const FunctionInfo& exp = info_of(FunctionId::exp);
+  using std::exp;
+  const FunctionInfo& info = info_of(FunctionId::exp);
   const Real x = 0.5;
-  const Real y = std::exp(x);
+  const Real y = exp(x);
   const std::uint8_t threw = 0;
   RowHint hint(1);
-  RowTally<Real> tally(exp, hint);
-  ScreenedJudging<Real> judging(exp, stages);
-  judging.judge({exp, {&x, 1}, {&y, 1}, {&threw, 1}, index}, tally);
+  RowTally<Real> tally(info, hint);
+  ScreenedJudging<Real> judging(info, stages);
+  judging.judge({info, {&x, 1}, {&y, 1}, {&threw, 1}, index}, tally);
 }
 
 template <class Real>
@@ -123,6 +132,10 @@ TEST(ScreenedJudging, ALyingStageIsFoundAndTheArgumentNamed) {
   stages.binary128 = lying_exp<Binary128>;
   expect_named<double>(stages, "binary128");
   expect_named<long double>(stages, "binary128");
+  stages = screen_stages(exp);
+  stages.triple_double = lying_triple_double;
+  expect_named<Float128Real>(stages, "triple_double");
+  expect_named<Float128Real>(stages, "triple_double", ScreenedJudging<Float128Real>::check_stride);
 #endif
 }
 
@@ -138,6 +151,20 @@ TEST(ScreenedJudging, CheapStagesDecideNearlyEverySample) {
   EXPECT_GT(hint.decided[static_cast<std::size_t>(Stage::double_double)], 19900U);
   EXPECT_LT(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 20U);
 }
+
+#ifdef ULPGATE_HAVE_FLOAT128
+TEST(ScreenedJudging, TripleDoubleDecidesNearlyEverySampleOfFloat128) {
+  if (find_subject("exp", "float128") == nullptr) GTEST_SKIP() << "float128 is not built";
+  for (const char* name : {"add", "mul", "exp", "log", "sin", "atan2", "tanh", "erf", "lgamma"}) {
+    RowHint hint(1);
+    const auto* subject = find_subject(name, "float128");
+    const auto summaries =
+        subject->evaluate({Stratum::uniform, 1, 4000, nullptr}, 0, 4000, ReferenceMode::screened, hint);
+    EXPECT_EQ(summaries[0].samples, 4000U);
+    EXPECT_GT(hint.decided[static_cast<std::size_t>(Stage::triple_double)], 3900U) << name;
+  }
+}
+#endif
 
 // Arguments whose results leave the range, ordinary ones first: where nothing is known yet, each could be a maximum.
 template <class Real>
