@@ -28,17 +28,26 @@ using multi_word::Terms;
 
 namespace ulpgate {
 
-TripleDoubleFunction triple_double_function(FunctionId id, [[maybe_unused]] std::size_t level) {
+// The one of a level.
 #ifdef ULPGATE_LEVELS
-  if (level == 2) return td::avx512::function_of(id);
-  if (level == 1) return td::avx2::function_of(id);
+#define ULPGATE_AT(function, id, level) \
+  ((level) == 2 ? td::avx512::function(id) : (level) == 1 ? td::avx2::function(id) : td::baseline::function(id))
+#else
+#define ULPGATE_AT(function, id, level) td::baseline::function(id)
 #endif
-  return td::baseline::function_of(id);
+
+TripleDoubleFunction triple_double_function(FunctionId id, [[maybe_unused]] std::size_t level) {
+  return ULPGATE_AT(function_of, id, level);
+}
+TripleDoubleFunction triple_double_function_of_turns(FunctionId id, [[maybe_unused]] std::size_t level) {
+  return ULPGATE_AT(function_of_turns, id, level);
 }
 
 TripleDoubleFunction triple_double_function(FunctionId id) {
-  static const std::size_t best = instruction_levels() - 1;
-  return triple_double_function(id, best);
+  return triple_double_function(id, instruction_levels() - 1);
+}
+TripleDoubleFunction triple_double_function_of_turns(FunctionId id) {
+  return triple_double_function_of_turns(id, instruction_levels() - 1);
 }
 
 }  // namespace ulpgate

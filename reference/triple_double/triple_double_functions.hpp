@@ -19,7 +19,11 @@ using TripleDoubleFunction = void (*)(const TripleDouble* args, TripleDouble* re
 // nearest; nothing of the C library is called.
 [[nodiscard]] TripleDoubleFunction triple_double_function(FunctionId id);
 
+// Sine, cosine and tangent of quarter turns (large_angles.hpp): each point is a fraction and a quadrant.
+[[nodiscard]] TripleDoubleFunction triple_double_function_of_turns(FunctionId id);
+
 // Of one instruction set, below instruction_levels(); for tests.
 [[nodiscard]] TripleDoubleFunction triple_double_function(FunctionId id, std::size_t level);
+[[nodiscard]] TripleDoubleFunction triple_double_function_of_turns(FunctionId id, std::size_t level);
 
 }  // namespace ulpgate

@@ -10,6 +10,7 @@
 #include "harness/core/stages/exact_results.hpp"
 #include "harness/core/stages/finding.hpp"
 #include "harness/core/stages/native_bits.hpp"
+#include "reference/triple_double/large_angles.hpp"
 #include "reference/triple_double/triple_double_functions.hpp"
 #include "reference/types/real_types.hpp"
 
@@ -22,7 +23,10 @@ class TripleStage {
   static constexpr Stage id = Stage::triple_double;
 
   TripleStage(FunctionId f, TripleDoubleFunction function)
-      : id_(f), function_(function), inexact_(inexact_results(f)) {}
+      : id_(f),
+        function_(function),
+        of_turns_(triple_double_function_of_turns(f)),
+        inexact_(inexact_results(f)) {}
   [[nodiscard]] bool exists() const { return function_ != nullptr; }
 
   // Evaluates the points of `args`, count * arity values.
@@ -32,6 +36,7 @@ class TripleStage {
     bounds_.resize(count);
     for (std::size_t i = 0; i < args.size(); ++i) args_[i] = triple_of(args[i].backend().value());
     function_(args_.data(), results_.data(), bounds_.data(), count);
+    if (of_turns_ != nullptr) load_large_angles(args);
   }
 
   [[nodiscard]] long double value(std::size_t i) const {
@@ -43,6 +48,7 @@ class TripleStage {
   [[nodiscard]] bool find(std::size_t i, const Float128Real* args, const Float128Real& result,
                           Finding& finding) const {
     if (id_ == FunctionId::add || id_ == FunctionId::sub) return find_sum(args, result, finding);
+    if (find_next_to_0(args[0].backend().value(), result.backend().value(), finding)) return true;
     const TripleDouble value = results_[i];
     const TripleDouble got = triple_of(result.backend().value());
     const double bound = bounds_[i];
@@ -80,6 +86,30 @@ class TripleStage {
   static constexpr int most_exponent = 850;
   // One ulp of a triple in ulp of binary128, with a margin.
   static constexpr double unit = power_of_two(digits - triple_double_bits) * (1 + 0x1p-20);
+
+  // Sines and their like beyond 2^30.
+  void load_large_angles(std::span<const Float128Real> args) {
+    turns_.clear();
+    large_.clear();
+    for (std::size_t i = 0; i < args.size(); ++i) {
+      const auto bits = std::bit_cast<unsigned __int128>(args[i].backend().value());
+      const auto high = static_cast<std::uint64_t>(bits >> 64U);
+      const int e = static_cast<int>((high >> 48U) & 0x7fffU) - 16383;
+      if (e < 30 || e > 16383) continue;
+      QuarterTurns t = quarter_turns((high & 0xffffffffffffU) | 0x1000000000000U, static_cast<std::uint64_t>(bits), e);
+      if ((high >> 63U) != 0) t = {{-t.fraction.hi, -t.fraction.mid, -t.fraction.lo}, (4 - t.quadrant) & 3};
+      turns_.push_back(t.fraction);
+      turns_.push_back({static_cast<double>(t.quadrant), 0, 0});
+      large_.push_back(i);
+    }
+    large_results_.resize(large_.size());
+    large_bounds_.resize(large_.size());
+    of_turns_(turns_.data(), large_results_.data(), large_bounds_.data(), large_.size());
+    for (std::size_t j = 0; j < large_.size(); ++j) {
+      results_[large_[j]] = large_results_[j];
+      bounds_[large_[j]] = large_bounds_[j];
+    }
+  }
 
   // Exactly; NaN for what has exponents that double has not, or none.
   static TripleDouble triple_of(Binary128 x) {
@@ -129,6 +159,37 @@ class TripleStage {
     return true;
   }
 
+  // Next to 0 these are their argument or 1, but for a part of 2^-180 of it and less, which they never are exactly.
+  [[nodiscard]] bool find_next_to_0(Binary128 x, Binary128 got, Finding& finding) const {
+    constexpr Binary128 small = 0x1p-180;
+    if (!(x < small && x > -small) || x == 0) return false;
+    switch (id_) {
+      case FunctionId::sin:
+      case FunctionId::tan:
+      case FunctionId::asin:
+      case FunctionId::atan:
+      case FunctionId::sinh:
+      case FunctionId::tanh:
+      case FunctionId::asinh:
+      case FunctionId::atanh:
+      case FunctionId::expm1:
+      case FunctionId::log1p:
+        if (got != x) return false;
+        break;
+      case FunctionId::cos:
+      case FunctionId::cosh:
+      case FunctionId::exp:
+      case FunctionId::exp2:
+      case FunctionId::erfc:
+        if (got != 1) return false;
+        break;
+      default:
+        return false;
+    }
+    finding = {Outcome::finite, smallest_error, 0x1p-60, 0, true, true};
+    return true;
+  }
+
   // Of neighbours, within 2^-157 of them: the first difference is exact.
   static double difference(const TripleDouble& x, const TripleDouble& y) {
     const double first = x.hi - y.hi;
@@ -169,10 +230,15 @@ class TripleStage {
 
   FunctionId id_;
   TripleDoubleFunction function_;
+  TripleDoubleFunction of_turns_;
   InexactResults inexact_;
   std::vector<TripleDouble> args_;
   std::vector<TripleDouble> results_;
   std::vector<double> bounds_;
+  std::vector<std::size_t> large_;  // the points with large angles, what they are made of and what comes out
+  std::vector<TripleDouble> turns_;
+  std::vector<TripleDouble> large_results_;
+  std::vector<double> large_bounds_;
 };
 
 #endif
