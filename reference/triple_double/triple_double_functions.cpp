@@ -39,15 +39,15 @@ namespace ulpgate {
 TripleDoubleFunction triple_double_function(FunctionId id, [[maybe_unused]] std::size_t level) {
   return ULPGATE_AT(function_of, id, level);
 }
-TripleDoubleFunction triple_double_function_of_turns(FunctionId id, [[maybe_unused]] std::size_t level) {
-  return ULPGATE_AT(function_of_turns, id, level);
+TripleDoubleFunction prepared_triple_double_function(FunctionId id, [[maybe_unused]] std::size_t level) {
+  return ULPGATE_AT(prepared_function_of, id, level);
 }
 
 TripleDoubleFunction triple_double_function(FunctionId id) {
   return triple_double_function(id, instruction_levels() - 1);
 }
-TripleDoubleFunction triple_double_function_of_turns(FunctionId id) {
-  return triple_double_function_of_turns(id, instruction_levels() - 1);
+TripleDoubleFunction prepared_triple_double_function(FunctionId id) {
+  return prepared_triple_double_function(id, instruction_levels() - 1);
 }
 
 }  // namespace ulpgate

@@ -19,11 +19,12 @@ using TripleDoubleFunction = void (*)(const TripleDouble* args, TripleDouble* re
 // nearest; nothing of the C library is called.
 [[nodiscard]] TripleDoubleFunction triple_double_function(FunctionId id);
 
-// Sine, cosine and tangent of quarter turns (large_angles.hpp): each point is a fraction and a quadrant.
-[[nodiscard]] TripleDoubleFunction triple_double_function_of_turns(FunctionId id);
+// Of points of two numbers each: sine, cosine and tangent of a fraction and a quadrant (large_angles.hpp); logarithms of x
+// 2^shift, x of double's exponents and shift a number below 2^31.
+[[nodiscard]] TripleDoubleFunction prepared_triple_double_function(FunctionId id);
 
 // Of one instruction set, below instruction_levels(); for tests.
 [[nodiscard]] TripleDoubleFunction triple_double_function(FunctionId id, std::size_t level);
-[[nodiscard]] TripleDoubleFunction triple_double_function_of_turns(FunctionId id, std::size_t level);
+[[nodiscard]] TripleDoubleFunction prepared_triple_double_function(FunctionId id, std::size_t level);
 
 }  // namespace ulpgate

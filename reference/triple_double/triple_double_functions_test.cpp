@@ -9,6 +9,7 @@
 
 #include "reference/lanes/levels.hpp"
 #include "reference/oracle/oracle.hpp"
+#include "reference/triple_double/large_angles.hpp"
 
 namespace ulpgate {
 namespace {
@@ -108,6 +109,38 @@ TEST(TripleDoubleFunctions, KeepTheirBoundsOnEveryProcessor) {
     }
   }
   EXPECT_EQ(functions, 32U);
+}
+
+// 2/pi x = 4 n + quadrant + fraction.
+TEST(LargeAngles, AreWhatMpfrSays) {
+  const WideExponentRange wide;
+  std::mt19937_64 words(3);
+  constexpr mpfr_prec_t bits = 17500;
+  MpfrValue two_over_pi(bits);
+  mpfr_const_pi(two_over_pi, MPFR_RNDN);
+  mpfr_ui_div(two_over_pi, 2, two_over_pi, MPFR_RNDN);
+  MpfrValue x(128);
+  MpfrValue turns(bits);
+  MpfrValue whole(bits);
+  for (const int exponent : {0, 1, 29, 63, 111, 112, 113, 114, 115, 178, 1023, 9999, 16383}) {
+    for (int i = 0; i < 20; ++i) {
+      const std::uint64_t high = (words() >> 16U) | 0x1000000000000U;
+      const std::uint64_t low = words();
+      mpfr_set_uj(x, high, MPFR_RNDN);
+      mpfr_mul_2ui(x, x, 64, MPFR_RNDN);
+      mpfr_add_d(x, x, static_cast<double>(low >> 32U) * 0x1p32, MPFR_RNDN);
+      mpfr_add_ui(x, x, low & 0xffffffffU, MPFR_RNDN);
+      mpfr_mul_2si(x, x, exponent - 112, MPFR_RNDN);
+      mpfr_mul(turns, x, two_over_pi, MPFR_RNDN);
+      mpfr_round(whole, turns);
+      mpfr_sub(turns, turns, whole, MPFR_RNDN);
+      MpfrValue quadrant(64);
+      mpfr_fmod_ui(quadrant, whole, 4, MPFR_RNDN);
+      const QuarterTurns found = quarter_turns(high, low, exponent);
+      EXPECT_EQ(static_cast<unsigned long>(found.quadrant), mpfr_get_ui(quadrant, MPFR_RNDN)) << exponent;
+      EXPECT_LE(ulps(found.fraction, turns), 0x1p-6) << exponent;
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // TripleStage: functions in triple-double bound the errors of a batch of binary128 results.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <span>
@@ -25,7 +26,7 @@ class TripleStage {
   TripleStage(FunctionId f, TripleDoubleFunction function)
       : id_(f),
         function_(function),
-        of_turns_(triple_double_function_of_turns(f)),
+        prepared_(prepared_triple_double_function(prepared_id(f))),
         inexact_(inexact_results(f)) {}
   [[nodiscard]] bool exists() const { return function_ != nullptr; }
 
@@ -34,13 +35,15 @@ class TripleStage {
     args_.resize(args.size());
     results_.resize(count);
     bounds_.resize(count);
-    for (std::size_t i = 0; i < args.size(); ++i) args_[i] = triple_of(args[i].backend().value());
+    scales_.assign(count, 0);
+    const std::size_t arity = args.size() / count;
+    for (std::size_t i = 0; i < count; ++i) load_point(&args[arity * i], &args_[arity * i], scales_[i]);
     function_(args_.data(), results_.data(), bounds_.data(), count);
-    if (of_turns_ != nullptr) load_large_angles(args);
+    if (prepared_ != nullptr) load_prepared(args);
   }
 
   [[nodiscard]] long double value(std::size_t i) const {
-    return static_cast<long double>(results_[i].hi) + static_cast<long double>(results_[i].mid);
+    return std::ldexp(static_cast<long double>(results_[i].hi) + static_cast<long double>(results_[i].mid), scales_[i]);
   }
 
   // As NativeStage::find.  No say is had of zeros, infinities and what is far from double's exponents, and of most results
@@ -48,14 +51,15 @@ class TripleStage {
   [[nodiscard]] bool find(std::size_t i, const Float128Real* args, const Float128Real& result,
                           Finding& finding) const {
     if (id_ == FunctionId::add || id_ == FunctionId::sub) return find_sum(args, result, finding);
-    if (find_next_to_0(args[0].backend().value(), result.backend().value(), finding)) return true;
+    if (find_next_to_limit(args[0].backend().value(), result.backend().value(), finding)) return true;
     const TripleDouble value = results_[i];
-    const TripleDouble got = triple_of(result.backend().value());
+    const TripleDouble got = triple_of(result.backend().value(), scales_[i]);
     const double bound = bounds_[i];
     const Binade binade = binade_of(value);
     const Binade got_binade = binade_of(got);
     if (!(bound >= 0) || !binade.known || !got_binade.known || (got.hi < 0) != (value.hi < 0) ||
-        std::abs(got_binade.exponent - binade.exponent) > 1) {
+        std::abs(got_binade.exponent - binade.exponent) > 1 ||
+        std::abs(binade.exponent + scales_[i]) > greatest_exponent - 2) {
       return false;
     }
     const double ulps = power_of_two(digits - 1 - binade.exponent);
@@ -87,37 +91,139 @@ class TripleStage {
   // One ulp of a triple in ulp of binary128, with a margin.
   static constexpr double unit = power_of_two(digits - triple_double_bits) * (1 + 0x1p-20);
 
-  // Sines and their like beyond 2^30.
-  void load_large_angles(std::span<const Float128Real> args) {
-    turns_.clear();
-    large_.clear();
-    for (std::size_t i = 0; i < args.size(); ++i) {
-      const auto bits = std::bit_cast<unsigned __int128>(args[i].backend().value());
-      const auto high = static_cast<std::uint64_t>(bits >> 64U);
-      const int e = static_cast<int>((high >> 48U) & 0x7fffU) - 16383;
-      if (e < 30 || e > 16383) continue;
-      QuarterTurns t = quarter_turns((high & 0xffffffffffffU) | 0x1000000000000U, static_cast<std::uint64_t>(bits), e);
-      if ((high >> 63U) != 0) t = {{-t.fraction.hi, -t.fraction.mid, -t.fraction.lo}, (4 - t.quadrant) & 3};
-      turns_.push_back(t.fraction);
-      turns_.push_back({static_cast<double>(t.quadrant), 0, 0});
-      large_.push_back(i);
-    }
-    large_results_.resize(large_.size());
-    large_bounds_.resize(large_.size());
-    of_turns_(turns_.data(), large_results_.data(), large_bounds_.data(), large_.size());
-    for (std::size_t j = 0; j < large_.size(); ++j) {
-      results_[large_[j]] = large_results_[j];
-      bounds_[large_[j]] = large_bounds_[j];
+  static constexpr int greatest_exponent = 16383;
+  static constexpr int no_exponent = -100000;
+  // Of a normal number.
+  static int exponent_of(Binary128 x) {
+    const NumberBits bits = bits_of(x);
+    return bits.normal ? bits.exponent : no_exponent;
+  }
+  static Binary128 number(const Float128Real& x) { return x.backend().value(); }
+
+  static TripleDouble signed_power(Binary128 sign, int e) {
+    return {sign < 0 ? -power_of_two(e) : power_of_two(e), 0, 0};
+  }
+
+  // The arguments, and the exponent that the result has beside what is evaluated: those which products, quotients and roots
+  // are scaled by.
+  void load_point(const Float128Real* from, TripleDouble* to, int& scale) const {
+    const Binary128 x = number(from[0]);
+    const int e = exponent_of(x);
+    switch (id_) {
+      case FunctionId::mul:
+      case FunctionId::div: {
+        const Binary128 y = number(from[1]);
+        const int f = exponent_of(y);
+        to[0] = triple_of(x, e);
+        to[1] = triple_of(y, f);
+        scale = id_ == FunctionId::mul ? e + f : e - f;
+        return;
+      }
+      case FunctionId::sqrt:
+        scale = e >> 1;
+        to[0] = triple_of(x, 2 * scale);
+        return;
+      case FunctionId::cbrt:
+        scale = (e + 30000) / 3 - 10000;
+        to[0] = triple_of(x, 3 * scale);
+        return;
+      case FunctionId::hypot:
+      case FunctionId::atan2: {
+        const Binary128 y = number(from[1]);
+        const int both = std::max(e, exponent_of(y));
+        to[0] = triple_of(x, both);
+        to[1] = triple_of(y, both);
+        scale = id_ == FunctionId::hypot ? both : 0;
+        return;
+      }
+      case FunctionId::atan:
+        // pi/2 and pi/2 - 2^-300 are the same here.
+        to[0] = e > 300 ? signed_power(x, 300) : triple_of(x);
+        return;
+      case FunctionId::acos:
+        to[0] = e < -300 && e != no_exponent ? signed_power(x, -300) : triple_of(x);
+        return;
+      case FunctionId::erf:
+        // Next to 0 it is a line.
+        scale = e < -300 && e != no_exponent ? e + 300 : 0;
+        to[0] = triple_of(x, scale);
+        return;
+      default:
+        to[0] = triple_of(x);
+        for (std::size_t k = 1; k < (id_ == FunctionId::add || id_ == FunctionId::sub || id_ == FunctionId::pow ? 2 : 1); ++k)
+          to[k] = triple_of(number(from[k]));
+        return;
     }
   }
 
-  // Exactly; NaN for what has exponents that double has not, or none.
-  static TripleDouble triple_of(Binary128 x) {
+  // Which prepared function has the numbers that this one leaves to it.
+  static FunctionId prepared_id(FunctionId f) {
+    const bool far_logarithm = f == FunctionId::log1p || f == FunctionId::asinh || f == FunctionId::acosh;
+    return far_logarithm ? FunctionId::log : f;
+  }
+  // Sines and their like beyond 2^30, logarithms of what has exponents that double has not.
+  void load_prepared(std::span<const Float128Real> args) {
+    prepared_args_.clear();
+    prepared_points_.clear();
+    for (std::size_t i = 0; i < args.size(); ++i) {
+      const Binary128 x = number(args[i]);
+      const int e = exponent_of(x);
+      if (e == no_exponent) continue;
+      switch (id_) {
+        case FunctionId::sin:
+        case FunctionId::cos:
+        case FunctionId::tan:
+          if (e >= 30) prepare_angle(x, e, i);
+          break;
+        case FunctionId::log:
+        case FunctionId::log2:
+        case FunctionId::log10:
+          if (std::abs(e) > most_exponent && x > 0) prepare_logarithm(x, e, e, i);
+          break;
+        case FunctionId::log1p:
+          if (e > most_exponent && x > 0) prepare_logarithm(x, e, e, i);
+          break;
+        default:
+          // asinh x = log 2x, acosh x = log 2x.
+          if (e > most_exponent) prepare_logarithm(x < 0 ? -x : x, e, e + 1, i);
+          break;
+      }
+    }
+    prepared_results_.resize(prepared_points_.size());
+    prepared_bounds_.resize(prepared_points_.size());
+    prepared_(prepared_args_.data(), prepared_results_.data(), prepared_bounds_.data(), prepared_points_.size());
+    for (std::size_t j = 0; j < prepared_points_.size(); ++j) {
+      const std::size_t i = prepared_points_[j];
+      const TripleDouble& r = prepared_results_[j];
+      const bool negative = id_ == FunctionId::asinh && number(args[i]) < 0;
+      results_[i] = negative ? TripleDouble{-r.hi, -r.mid, -r.lo} : r;
+      bounds_[i] = prepared_bounds_[j];
+    }
+  }
+  void prepare_angle(Binary128 x, int e, std::size_t i) {
+    const auto bits = std::bit_cast<unsigned __int128>(x);
+    const auto high = static_cast<std::uint64_t>(bits >> 64U);
+    QuarterTurns t =
+        quarter_turns((high & 0xffffffffffffU) | 0x1000000000000U, static_cast<std::uint64_t>(bits), e);
+    if (x < 0) t = {{-t.fraction.hi, -t.fraction.mid, -t.fraction.lo}, (4 - t.quadrant) & 3};
+    prepared_args_.push_back(t.fraction);
+    prepared_args_.push_back({static_cast<double>(t.quadrant), 0, 0});
+    prepared_points_.push_back(i);
+  }
+  void prepare_logarithm(Binary128 x, int e, int shift, std::size_t i) {
+    prepared_args_.push_back(triple_of(x, e));
+    prepared_args_.push_back({static_cast<double>(shift), 0, 0});
+    prepared_points_.push_back(i);
+  }
+
+  // x 2^-scale, exactly; NaN for what has exponents that double has not, or none.
+  static TripleDouble triple_of(Binary128 x, int scale = 0) {
     const auto bits = std::bit_cast<unsigned __int128>(x);
     const auto high = static_cast<std::uint64_t>(bits >> 64U);
     const auto low = static_cast<std::uint64_t>(bits);
-    const int e = static_cast<int>((high >> 48U) & 0x7fffU) - 16383;
-    if (e < -most_exponent || e > most_exponent) return {std::nan(""), 0, 0};
+    const int biased = static_cast<int>((high >> 48U) & 0x7fffU);
+    const int e = biased - greatest_exponent - scale;
+    if (biased == 0 || biased == 0x7fff || e < -most_exponent || e > most_exponent) return {std::nan(""), 0, 0};
     // 53, 53 and 7 bits of one sign, and in the order of floating-point numbers.
     const double sign = (high >> 63U) != 0 ? -1 : 1;
     const std::uint64_t significand = (high & 0xffffffffffffU) | 0x1000000000000U;  // 49 bits
@@ -159,10 +265,19 @@ class TripleStage {
     return true;
   }
 
-  // Next to 0 these are their argument or 1, but for a part of 2^-180 of it and less, which they never are exactly.
-  [[nodiscard]] bool find_next_to_0(Binary128 x, Binary128 got, Finding& finding) const {
+  // Next to 0 these are their argument or 1, and far from it -1 or 1, but for a part of 2^-180 of it and less, which they
+  // never are exactly.
+  [[nodiscard]] bool find_next_to_limit(Binary128 x, Binary128 got, Finding& finding) const {
     constexpr Binary128 small = 0x1p-180;
-    if (!(x < small && x > -small) || x == 0) return false;
+    constexpr Binary128 far = 0x1p10;
+    const bool is_far = (x > far || x < -far) && x - x == 0;
+    if (is_far ? got != (x < 0 ? -1 : 1) : x == 0 || !(x < small && x > -small)) return false;
+    if (is_far && id_ != FunctionId::tanh && id_ != FunctionId::erf) return false;
+    if (!is_far && !is_limit_at_0(x, got)) return false;
+    finding = {Outcome::finite, smallest_error, 0x1p-60, 0, true, true};
+    return true;
+  }
+  [[nodiscard]] bool is_limit_at_0(Binary128 x, Binary128 got) const {
     switch (id_) {
       case FunctionId::sin:
       case FunctionId::tan:
@@ -174,20 +289,16 @@ class TripleStage {
       case FunctionId::atanh:
       case FunctionId::expm1:
       case FunctionId::log1p:
-        if (got != x) return false;
-        break;
+        return got == x;
       case FunctionId::cos:
       case FunctionId::cosh:
       case FunctionId::exp:
       case FunctionId::exp2:
       case FunctionId::erfc:
-        if (got != 1) return false;
-        break;
+        return got == 1;
       default:
         return false;
     }
-    finding = {Outcome::finite, smallest_error, 0x1p-60, 0, true, true};
-    return true;
   }
 
   // Of neighbours, within 2^-157 of them: the first difference is exact.
@@ -230,15 +341,16 @@ class TripleStage {
 
   FunctionId id_;
   TripleDoubleFunction function_;
-  TripleDoubleFunction of_turns_;
+  TripleDoubleFunction prepared_;
   InexactResults inexact_;
   std::vector<TripleDouble> args_;
   std::vector<TripleDouble> results_;
   std::vector<double> bounds_;
-  std::vector<std::size_t> large_;  // the points with large angles, what they are made of and what comes out
-  std::vector<TripleDouble> turns_;
-  std::vector<TripleDouble> large_results_;
-  std::vector<double> large_bounds_;
+  std::vector<int> scales_;
+  std::vector<std::size_t> prepared_points_;  // the points of prepared functions, what they are made of and what comes out
+  std::vector<TripleDouble> prepared_args_;
+  std::vector<TripleDouble> prepared_results_;
+  std::vector<double> prepared_bounds_;
 };
 
 #endif
