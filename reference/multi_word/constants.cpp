@@ -44,7 +44,7 @@ void make_exponentials(Constants<Word>& c) {
   c.inverse_ln2_64 = 64 * c.inverse_ln2.hi;
   mpfr_const_log2(x, MPFR_RNDN);
   mpfr_div_2ui(x, x, 6, MPFR_RNDN);
-  for (double& part : c.ln2_64) part = piece(x, &part == c.ln2_64.data() ? 36 : 53);
+  for (double& part : c.ln2_64) part = piece(x, &part == c.ln2_64.data() ? Constants<Word>::first_bits : 53);
   mpfr_set_ui(x, 10, MPFR_RNDN);
   mpfr_log(x, x, MPFR_RNDN);
   mpfr_ui_div(x, 1, x, MPFR_RNDN);

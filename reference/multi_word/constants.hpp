@@ -23,7 +23,8 @@ inline constexpr int least_log_index = 90;
 template <class Word>
 struct Constants {
   static constexpr std::size_t words = std::is_same_v<Word, DoubleDouble> ? 2 : 3;
-  // ln 2 / 64 in pieces: 36 bits, then 53 each.
+  // ln 2 / 64 in pieces: 36 or 32 bits, of which multiples up to 2^17 or 2^21 are doubles, then 53 each.
+  static constexpr int first_bits = words == 2 ? 36 : 32;
   std::array<double, words + 1> ln2_64;
   double inverse_ln2_64;  // 64 / ln 2
   Word ln2, inverse_ln2, inverse_ln10;

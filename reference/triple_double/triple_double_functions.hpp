@@ -8,12 +8,12 @@
 
 namespace ulpgate {
 
-// Evaluates f at `count` points: |results[i] - f(args of i)| is at most bounds[i] ulp of 2^-149 of the power of two below
-// results[i].  A negative bound says that nothing is known: of arguments and results near the ends of double's range and
-// beyond, and where f is not defined; an infinity that f is beyond double, a zero that it is below 2^-1100 (of both
-// nothing follows for a wider type).
-using TripleDoubleFunction = void (*)(const TripleDouble* args, TripleDouble* results, double* bounds,
-                                      std::size_t count);
+// Evaluates f at `count` points: |results[i] 2^scales[i] - f(args of i)| is at most bounds[i] ulp of 2^-149 of the power of
+// two below results[i] 2^scales[i]; scales are whole numbers.  A negative bound says that nothing is known: of arguments
+// near the ends of double's range and beyond, and where f is not defined; an infinity that f is beyond binary128, a zero
+// that it is far below.
+using TripleDoubleFunction = void (*)(const TripleDouble* args, TripleDouble* results, double* scales,
+                                      double* bounds, std::size_t count);
 
 // nullptr where there is none.  The bounds are derived where the functions stand (reference/multi_word), for round to
 // nearest; nothing of the C library is called.

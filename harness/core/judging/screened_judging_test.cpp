@@ -69,8 +69,9 @@ void lying_double_double(const DoubleDouble* args, DoubleDouble* results, double
   }
 }
 
-void lying_triple_double(const TripleDouble* args, TripleDouble* results, double* bounds, std::size_t count) {
-  triple_double_function(FunctionId::exp)(args, results, bounds, count);
+void lying_triple_double(const TripleDouble* args, TripleDouble* results, double* scales, double* bounds,
+                         std::size_t count) {
+  triple_double_function(FunctionId::exp)(args, results, scales, bounds, count);
   for (std::size_t i = 0; i < count; ++i) {
     results[i].hi += results[i].hi / 65536;
     bounds[i] = 0.5;

@@ -38,7 +38,10 @@ class TripleStage {
     scales_.assign(count, 0);
     const std::size_t arity = args.size() / count;
     for (std::size_t i = 0; i < count; ++i) load_point(&args[arity * i], &args_[arity * i], scales_[i]);
-    function_(args_.data(), results_.data(), bounds_.data(), count);
+    more_scales_.resize(count);
+    function_(args_.data(), results_.data(), more_scales_.data(), bounds_.data(), count);
+    for (std::size_t i = 0; i < count; ++i)
+      if (bounds_[i] >= 0) scales_[i] += static_cast<int>(more_scales_[i]);
     if (prepared_ != nullptr) load_prepared(args);
   }
 
@@ -191,7 +194,9 @@ class TripleStage {
     }
     prepared_results_.resize(prepared_points_.size());
     prepared_bounds_.resize(prepared_points_.size());
-    prepared_(prepared_args_.data(), prepared_results_.data(), prepared_bounds_.data(), prepared_points_.size());
+    more_scales_.resize(prepared_points_.size());
+    prepared_(prepared_args_.data(), prepared_results_.data(), more_scales_.data(), prepared_bounds_.data(),
+              prepared_points_.size());
     for (std::size_t j = 0; j < prepared_points_.size(); ++j) {
       const std::size_t i = prepared_points_[j];
       const TripleDouble& r = prepared_results_[j];
@@ -347,6 +352,7 @@ class TripleStage {
   std::vector<TripleDouble> results_;
   std::vector<double> bounds_;
   std::vector<int> scales_;
+  std::vector<double> more_scales_;
   std::vector<std::size_t> prepared_points_;  // the points of prepared functions, what they are made of and what comes out
   std::vector<TripleDouble> prepared_args_;
   std::vector<TripleDouble> prepared_results_;
