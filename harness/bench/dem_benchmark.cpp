@@ -18,8 +18,8 @@ void kernel(benchmark::State& state, const ulpgate::Subject* subject) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch));
 }
 
-// Steps from the start of the scene on; a scene that changes its character does so in every type alike.  Short ones are
-// taken many at a time, as a run does between two looks at the scene.
+// Steps from the start of the scene on; a scene that changes its character does so in every type alike. Short
+// ones are taken many at a time, as a run does between two looks at the scene.
 void scene(benchmark::State& state, const std::string& token, const std::string& name, bool all_parts) {
   const auto loaded = ulpgate::app::load_scene(name, {});
   const auto engine =

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "reference/multi_word/constants.hpp"
 #include "reference/lanes/levels.hpp"
+#include "reference/multi_word/constants.hpp"
 
 #ifdef __clang__
 // What is written for numbers and vectors has operands of & that may be bool.

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "reference/multi_word/double_double.hpp"
 #include "reference/functions/function_info.hpp"
+#include "reference/multi_word/double_double.hpp"
 
 namespace ulpgate {
 
@@ -12,8 +12,8 @@ namespace ulpgate {
 // is at most bounds[i] ulp of 2^-99 of the power of two below results[i].  A negative bound says that nothing
 // is known: of arguments and results near the ends of the range, and of results next to a zero of a function.
 // Else a NaN says that f is not defined there (of arguments of no more than 53 bits: a wider type has numbers
-// beyond double), an infinity that it is beyond double, a zero (of these too) that it is 0 where its bound is, and
-// where that is 1 that it is no zero and below 2^-1100.
+// beyond double), an infinity that it is beyond double, a zero (of these too) that it is 0 where its bound
+// is, and where that is 1 that it is no zero and below 2^-1100.
 using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* results, double* bounds,
                                       std::size_t count, int argument_bits);
 

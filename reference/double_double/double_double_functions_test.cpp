@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "reference/multi_word/constants.hpp"
 #include "reference/lanes/levels.hpp"
+#include "reference/multi_word/constants.hpp"
 #include "reference/oracle/oracle.hpp"
 
 namespace ulpgate {
@@ -74,7 +74,8 @@ double ulps(DoubleDouble value, mpfr_srcptr exact) {
 bool is_told_rightly(DoubleDouble value, double bound, mpfr_srcptr exact) {
   if (std::isnan(value.hi)) return mpfr_nan_p(exact) != 0;
   // Where it is none it may have left even MPFR's range.
-  if (value.hi == 0 && bound == 1) return mpfr_zero_p(exact) != 0 || mpfr_get_exp(exact) <= double_double_zero;
+  if (value.hi == 0 && bound == 1)
+    return mpfr_zero_p(exact) != 0 || mpfr_get_exp(exact) <= double_double_zero;
   if (value.hi == 0) return mpfr_zero_p(exact) != 0;
   return (mpfr_sgn(exact) > 0) == (value.hi > 0) && (mpfr_inf_p(exact) != 0 || mpfr_get_exp(exact) > 1024);
 }
@@ -149,7 +150,8 @@ TEST(DoubleDoubleFunctions, AreTheSameOfOneNumberAndOfMany) {
         if (bound < 0 || !std::isfinite(single.hi)) continue;
         const double difference = (single.hi - results[i].hi) + (single.lo - results[i].lo);
         const double ulp = std::fabs(single.hi) * std::ldexp(1.0, 1 - double_double_bits);
-        ASSERT_LE(std::fabs(difference), ulp * (bound + bounds[i])) << f.name << ' ' << args[i * arity_of(f)].hi;
+        ASSERT_LE(std::fabs(difference), ulp * (bound + bounds[i]))
+            << f.name << ' ' << args[i * arity_of(f)].hi;
       }
     }
   }

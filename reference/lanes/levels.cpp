@@ -1,8 +1,8 @@
 // Levels of instruction sets.
 #include "reference/lanes/levels.hpp"
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <string>
 #include <string_view>

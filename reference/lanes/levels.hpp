@@ -18,9 +18,10 @@ class UnknownInstructions : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// How many of them this program uses, the slowest first: 1 that of every processor, 2 AVX2 with FMA (x86-64-v3) as
-// well, 3 AVX-512 (x86-64-v4) as well.  As many as the processor has, and no more than the environment's
-// ULPGATE_INSTRUCTIONS says: baseline, avx2 or avx512.  Throws UnknownInstructions where that is another word.
+// How many of them this program uses, the slowest first: 1 that of every processor, 2 AVX2 with FMA
+// (x86-64-v3) as well, 3 AVX-512 (x86-64-v4) as well.  As many as the processor has, and no more than the
+// environment's ULPGATE_INSTRUCTIONS says: baseline, avx2 or avx512.  Throws UnknownInstructions where that
+// is another word.
 [[nodiscard]] std::size_t instruction_levels();
 
 }  // namespace ulpgate

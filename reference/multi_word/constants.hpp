@@ -10,16 +10,16 @@
 
 namespace ulpgate::multi_word {
 
-// The terms first to last of a series, of which those from `from_double` on are taken in double, and of triples those
-// from `from_pair` on in pairs.
+// The terms first to last of a series, of which those from `from_double` on are taken in double, and of
+// triples those from `from_pair` on in pairs.
 struct Terms {
   std::size_t first, from_pair, from_double, last;
 };
 
 inline constexpr int least_log_index = 90;
 
-// Each entry of a Word is within half of its last part's ulp of the exact number; all are computed by MPFR when the
-// program first asks for them, so that no digit of them was typed.
+// Each entry of a Word is within half of its last part's ulp of the exact number; all are computed by MPFR
+// when the program first asks for them, so that no digit of them was typed.
 template <class Word>
 struct Constants {
   static constexpr std::size_t words = std::is_same_v<Word, DoubleDouble> ? 2 : 3;

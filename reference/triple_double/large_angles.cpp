@@ -43,7 +43,8 @@ void shift(std::array<std::uint64_t, n>& words, int bits) {
     for (std::size_t i = 0; i < n; ++i)
       words[i] = words[i] << bits | (i + 1 < n ? words[i + 1] >> (64 - bits) : 0);
   } else if (bits < 0) {
-    for (std::size_t i = n; i-- > 0;) words[i] = words[i] >> -bits | (i > 0 ? words[i - 1] << (64 + bits) : 0);
+    for (std::size_t i = n; i-- > 0;)
+      words[i] = words[i] >> -bits | (i > 0 ? words[i - 1] << (64 + bits) : 0);
   }
 }
 
@@ -97,7 +98,8 @@ QuarterTurns quarter_turns(std::uint64_t high, std::uint64_t low, int exponent) 
   int leading = 0;
   for (std::size_t i = 0; i < window_words && leading == static_cast<int>(64 * i); ++i)
     leading += std::countl_zero(fraction[i]);
-  TripleDouble f{bits_from(fraction, leading), bits_from(fraction, leading + 53), bits_from(fraction, leading + 106)};
+  TripleDouble f{bits_from(fraction, leading), bits_from(fraction, leading + 53),
+                 bits_from(fraction, leading + 106)};
   if (down) f = {-f.hi, -f.mid, -f.lo};
   return {f, static_cast<int>(whole & 3U)};
 }

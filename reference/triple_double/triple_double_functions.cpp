@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "reference/multi_word/constants.hpp"
 #include "reference/lanes/levels.hpp"
+#include "reference/multi_word/constants.hpp"
 
 #ifdef __clang__
 // What is written for numbers and vectors has operands of & that may be bool.
@@ -30,8 +30,10 @@ namespace ulpgate {
 
 // The one of a level.
 #ifdef ULPGATE_LEVELS
-#define ULPGATE_AT(function, id, level) \
-  ((level) == 2 ? td::avx512::function(id) : (level) == 1 ? td::avx2::function(id) : td::baseline::function(id))
+#define ULPGATE_AT(function, id, level)      \
+  ((level) == 2   ? td::avx512::function(id) \
+   : (level) == 1 ? td::avx2::function(id)   \
+                  : td::baseline::function(id))
 #else
 #define ULPGATE_AT(function, id, level) td::baseline::function(id)
 #endif

@@ -401,7 +401,18 @@ def test_fewer_instructions_give_the_same_records(tmp_path):
     for instructions in ("baseline", "avx2", ""):
         out = tmp_path / (instructions or "best")
         done = subprocess.run(
-            [ULPGATE, "math", "--functions", "sin,log", "--types", "float,double", "--samples", "2000", "--out", out],
+            [
+                ULPGATE,
+                "math",
+                "--functions",
+                "sin,log",
+                "--types",
+                "float,double",
+                "--samples",
+                "2000",
+                "--out",
+                out,
+            ],
             env={**os.environ, "ULPGATE_INSTRUCTIONS": instructions},
             capture_output=True,
             text=True,
@@ -421,4 +432,7 @@ def test_unknown_instructions_are_bad_input():
         check=False,
     )
     assert done.returncode == 2
-    assert done.stderr == "ulpgate: ULPGATE_INSTRUCTIONS is 'sse9'; it may be baseline, avx2 or avx512\n"
+    assert (
+        done.stderr
+        == "ulpgate: ULPGATE_INSTRUCTIONS is 'sse9'; it may be baseline, avx2 or avx512\n"
+    )

@@ -149,8 +149,9 @@ void map_all_to_domain(DomainMap map, Real* x, std::size_t count, std::size_t st
   [&]<DomainMap... maps>(std::integer_sequence<DomainMap, maps...> /*all*/) {
     static_cast<void>(((map == maps && (map_each_to_domain<maps>(x, count, step), true)) || ...));
   }
-  (std::integer_sequence<DomainMap, DomainMap::PM1, DomainMap::GTM1, DomainMap::GT1, DomainMap::GT0, DomainMap::NZ,
-                         DomainMap::UINT, DomainMap::INT, DomainMap::MODPI, DomainMap::MOD2PI>());
+  (std::integer_sequence<DomainMap, DomainMap::PM1, DomainMap::GTM1, DomainMap::GT1, DomainMap::GT0,
+                         DomainMap::NZ, DomainMap::UINT, DomainMap::INT, DomainMap::MODPI,
+                         DomainMap::MOD2PI>());
 }
 
 // The k-th bit pattern of binary32, each once: blocks of 2^20 neighbours, far from each other and from 1.0

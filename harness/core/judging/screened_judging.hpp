@@ -196,9 +196,9 @@ class ScreenedJudging {
   template <class Native>
   void settle_ordinary(const Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
     verdicts_.resize(batch.count());
-    scan_ordinary(native.scan_input(batch.args, batch.results, batch.first_index,
-                                    tally.scan_limits(batch.first_index)),
-                  verdicts_.data());
+    scan_ordinary(
+        native.scan_input(batch.args, batch.results, batch.first_index, tally.scan_limits(batch.first_index)),
+        verdicts_.data());
     const std::uint64_t past_check = batch.first_index % stride_;
     for (std::size_t i = past_check == 0 ? 0 : stride_ - past_check; i < batch.count(); i += stride_)
       verdicts_[i] = verdict::unsettled;

@@ -167,7 +167,8 @@ TEST(ScreenedJudging, TripleDoubleDecidesNearlyEverySampleOfFloat128) {
 }
 #endif
 
-// Arguments whose results leave the range, ordinary ones first: where nothing is known yet, each could be a maximum.
+// Arguments whose results leave the range, ordinary ones first: where nothing is known yet, each could be a
+// maximum.
 template <class Real>
 struct RangeEnd {
   FunctionId id;

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <span>
 
+#include "harness/core/records/summary.hpp"
 #include "harness/core/stages/finding.hpp"
 #include "harness/core/stages/ordinary_errors.hpp"
 #include "harness/core/stages/ordinary_scan.hpp"
-#include "harness/core/records/summary.hpp"
 
 namespace ulpgate {
 

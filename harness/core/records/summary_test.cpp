@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "harness/core/stages/ordinary_errors.hpp"
 #include "harness/core/records/summary_text.hpp"
+#include "harness/core/stages/ordinary_errors.hpp"
 
 namespace ulpgate {
 namespace {

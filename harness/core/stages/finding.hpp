@@ -38,8 +38,8 @@ struct Finding {
   }
 };
 
-// Sets the distance of a finding whose error says it.  On one grid the correctly rounded value is the nearest number of
-// steps away; across a power of two the steps have two sizes.
+// Sets the distance of a finding whose error says it.  On one grid the correctly rounded value is the nearest
+// number of steps away; across a power of two the steps have two sizes.
 inline void set_distance(Finding& f, bool one_grid) {
   const double low = std::floor(f.least + 0.5);
   const double high = std::floor(f.greatest + 0.5);

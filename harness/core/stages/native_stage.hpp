@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "harness/core/records/stage.hpp"
 #include "harness/core/stages/exact_results.hpp"
 #include "harness/core/stages/finding.hpp"
 #include "harness/core/stages/native_bits.hpp"
 #include "harness/core/stages/ordinary_scan.hpp"
-#include "harness/core/records/stage.hpp"
 
 namespace ulpgate {
 
@@ -56,10 +56,10 @@ class NativeStage {
     using L = std::numeric_limits<Real>;
     constexpr int p = L::digits;
     constexpr int least_grid = L::min_exponent - 1;
-    constexpr int least_exponent = gradual                             ? least_grid - 200
-                                   : far                               ? -16200
+    constexpr int least_exponent = gradual                         ? least_grid - 200
+                                   : far                           ? -16200
                                    : std::same_as<W, DoubleDouble> ? double_double_least
-                                                                       : -900;
+                                                                   : -900;
     constexpr int greatest_exponent = std::min(L::max_exponent - 1, far ? 16200 : 900);
     const W value = results_[i];
     const NumberBits bits = bits_of(value);
@@ -158,8 +158,8 @@ class NativeStage {
     return static_cast<double>(x) * power_of_two(e);
   }
 
-  // Where the exponent of a value says that it overflows: half an ulp lies between the largest number and this power of
-  // two, to which a small bound is little.
+  // Where the exponent of a value says that it overflows: half an ulp lies between the largest number and
+  // this power of two, to which a small bound is little.
   [[nodiscard]] static int least_overflow(double bound) {
     return std::numeric_limits<Real>::max_exponent + (bound * unit <= 0.125 ? 0 : 1);
   }
@@ -183,9 +183,7 @@ class NativeStage {
     return scaled(gap, std::numeric_limits<Real>::digits - 1 - bits.exponent) <= 2 * slack;
   }
 
-  [[nodiscard]] static bool signbit_of(W value) {
-    return std::signbit(static_cast<double>(value));
-  }
+  [[nodiscard]] static bool signbit_of(W value) { return std::signbit(static_cast<double>(value)); }
 
   // Results of 0, infinity and NaN: the two agree, or the exact value lies beyond what Real has, for float up
   // to the last rounding.  Where they differ, and closer to the ends, the stage has no say.

@@ -9,12 +9,12 @@
 #include <limits>
 #include <random>
 
-#include "harness/core/stages/exact_results.hpp"
-#include "harness/core/stages/native_stage.hpp"
 #include "harness/core/judging/row_tally.hpp"
 #include "harness/core/judging/screened_judging.hpp"
 #include "harness/core/judging/tally.hpp"
 #include "harness/core/records/recorded_figures.hpp"
+#include "harness/core/stages/exact_results.hpp"
+#include "harness/core/stages/native_stage.hpp"
 #include "kernels/math/function_table.hpp"
 
 namespace ulpgate {

@@ -46,11 +46,12 @@ class TripleStage {
   }
 
   [[nodiscard]] long double value(std::size_t i) const {
-    return std::ldexp(static_cast<long double>(results_[i].hi) + static_cast<long double>(results_[i].mid), scales_[i]);
+    return std::ldexp(static_cast<long double>(results_[i].hi) + static_cast<long double>(results_[i].mid),
+                      scales_[i]);
   }
 
-  // As NativeStage::find.  No say is had of zeros, infinities and what is far from double's exponents, and of most results
-  // that are too close to the value to tell.
+  // As NativeStage::find.  No say is had of zeros, infinities and what is far from double's exponents, and of
+  // most results that are too close to the value to tell.
   [[nodiscard]] bool find(std::size_t i, const Float128Real* args, const Float128Real& result,
                           Finding& finding) const {
     if (id_ == FunctionId::add || id_ == FunctionId::sub) return find_sum(args, result, finding);
@@ -70,7 +71,8 @@ class TripleStage {
     const double slack = bound * unit + 0x1p-44 + error * 0x1p-48;
     double least = error - slack;
     double greatest = error + slack;
-    // Next to a power of two the exact value may lie in the other binade, where the spacing is half or double.
+    // Next to a power of two the exact value may lie in the other binade, where the spacing is half or
+    // double.
     const bool next_to_power = binade.is_power && std::fabs(value.mid + value.lo) * ulps <= 2 * slack;
     if (next_to_power) {
       least = (error - 2 * slack) / 2;
@@ -107,8 +109,8 @@ class TripleStage {
     return {sign < 0 ? -power_of_two(e) : power_of_two(e), 0, 0};
   }
 
-  // The arguments, and the exponent that the result has beside what is evaluated: those which products, quotients and roots
-  // are scaled by.
+  // The arguments, and the exponent that the result has beside what is evaluated: those which products,
+  // quotients and roots are scaled by.
   void load_point(const Float128Real* from, TripleDouble* to, int& scale) const {
     const Binary128 x = number(from[0]);
     const int e = exponent_of(x);
@@ -153,7 +155,8 @@ class TripleStage {
         return;
       default:
         to[0] = triple_of(x);
-        for (std::size_t k = 1; k < (id_ == FunctionId::add || id_ == FunctionId::sub || id_ == FunctionId::pow ? 2 : 1); ++k)
+        for (std::size_t k = 1;
+             k < (id_ == FunctionId::add || id_ == FunctionId::sub || id_ == FunctionId::pow ? 2 : 1); ++k)
           to[k] = triple_of(number(from[k]));
         return;
     }
@@ -228,7 +231,8 @@ class TripleStage {
     const auto low = static_cast<std::uint64_t>(bits);
     const int biased = static_cast<int>((high >> 48U) & 0x7fffU);
     const int e = biased - greatest_exponent - scale;
-    if (biased == 0 || biased == 0x7fff || e < -most_exponent || e > most_exponent) return {std::nan(""), 0, 0};
+    if (biased == 0 || biased == 0x7fff || e < -most_exponent || e > most_exponent)
+      return {std::nan(""), 0, 0};
     // 53, 53 and 7 bits of one sign, and in the order of floating-point numbers.
     const double sign = (high >> 63U) != 0 ? -1 : 1;
     const std::uint64_t significand = (high & 0xffffffffffffU) | 0x1000000000000U;  // 49 bits
@@ -256,7 +260,8 @@ class TripleStage {
     const auto significand = std::bit_cast<unsigned __int128>(got) << 16U;
     const bool below = significand == 0 && rest != 0 && (rest < 0) != (got < 0);
     const int grid = bits.exponent - (below ? 1 : 0);
-    const auto power = std::bit_cast<Binary128>(static_cast<unsigned __int128>(digits - 1 - grid + 16383) << 112U);
+    const auto power =
+        std::bit_cast<Binary128>(static_cast<unsigned __int128>(digits - 1 - grid + 16383) << 112U);
     const Binary128 exact = rest < 0 ? -rest * power : rest * power;
     const auto error = static_cast<double>(exact);
     const double slack = static_cast<Binary128>(error) == exact ? 0 : error * 0x1p-52;
@@ -270,8 +275,8 @@ class TripleStage {
     return true;
   }
 
-  // Next to 0 these are their argument or 1, and far from it -1 or 1, but for a part of 2^-180 of it and less, which they
-  // never are exactly.
+  // Next to 0 these are their argument or 1, and far from it -1 or 1, but for a part of 2^-180 of it and
+  // less, which they never are exactly.
   [[nodiscard]] bool find_next_to_limit(Binary128 x, Binary128 got, Finding& finding) const {
     constexpr Binary128 small = 0x1p-180;
     constexpr Binary128 far = 0x1p10;
@@ -353,7 +358,8 @@ class TripleStage {
   std::vector<double> bounds_;
   std::vector<int> scales_;
   std::vector<double> more_scales_;
-  std::vector<std::size_t> prepared_points_;  // the points of prepared functions, what they are made of and what comes out
+  std::vector<std::size_t>
+      prepared_points_;  // the points of prepared functions, what they are made of and what comes out
   std::vector<TripleDouble> prepared_args_;
   std::vector<TripleDouble> prepared_results_;
   std::vector<double> prepared_bounds_;
