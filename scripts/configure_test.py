@@ -1,5 +1,6 @@
-"""Tests that the project's configuration copes with a machine that has a part of MPI alone."""
+"""Tests of the configuration: a machine that has a part of MPI alone, a program of functions alone."""
 
+import json
 import os
 import pathlib
 import subprocess
@@ -72,3 +73,28 @@ def test_a_word_that_is_none_of_the_three_is_an_error(tmp_path, half_an_mpi):
     code, out, err = configure(tmp_path, half_an_mpi, "-DULPGATE_MPI=yes")
     assert code != 0
     assert "ON, OFF or AUTO, not 'yes'" in err
+
+
+def test_a_program_of_functions_alone_compiles_nothing_of_scenes(tmp_path):
+    alone = ("-DULPGATE_FUNCTIONS_ONLY=ON", "-DULPGATE_TYPES=double")
+    code, out, err = configure(tmp_path, tmp_path, *alone)
+    assert code == 0, out + err
+    commands = json.loads((tmp_path / "build" / "compile_commands.json").read_text())
+    files = " ".join(command["file"] for command in commands)
+    assert "function_subjects_double" in files
+    for word in ("dem", "stepper", "order", "scene", "stress", "kernel_subjects"):
+        assert word not in files.replace(str(tmp_path), "").replace(str(ROOT), "")
+    # What both builds compile they compile alike: the second goes on from the first.
+    alone_commands = {c["file"]: c["command"] for c in commands}
+    configure(tmp_path, tmp_path, "-DULPGATE_FUNCTIONS_ONLY=OFF", alone[1])
+    whole = json.loads((tmp_path / "build" / "compile_commands.json").read_text())
+    assert len(whole) > len(commands)
+    for command in whole:
+        mine = alone_commands.get(command["file"], command["command"])
+        assert mine == command["command"]
+
+
+def test_a_program_of_functions_alone_has_no_tests(tmp_path):
+    alone = ("-DULPGATE_FUNCTIONS_ONLY=ON", "-DULPGATE_BUILD_TESTS=ON")
+    code, _, err = configure(tmp_path, tmp_path, *alone)
+    assert code != 0 and "-DULPGATE_BUILD_TESTS=OFF" in err

@@ -10,7 +10,7 @@
 namespace ulpgate::app {
 
 void add_all_commands(CLI::App& app, Action& action, double& timeout_s) {
-  add_list_command(app, action);
+  add_list_command(app, action, listings_of_scenes());
   add_math_command(app, action);
   add_kernels_command(app, action);
   add_integrators_command(app, action);

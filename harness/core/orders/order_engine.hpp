@@ -46,7 +46,6 @@ class OrderEngine {
   OrderEngine& operator=(const OrderEngine&) = delete;
   virtual ~OrderEngine() = default;
 
-  [[nodiscard]] virtual const std::string& token() const = 0;
   // Names of problems whose exact solutions need no solver (kernels/ode/problems/problems.hpp).
   [[nodiscard]] virtual std::vector<std::string> problems() const = 0;
   // Splitting methods integrate q'' = a(q) only.

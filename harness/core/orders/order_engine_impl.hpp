@@ -13,10 +13,7 @@ namespace ulpgate {
 template <RealType Real>
 class OrderEngineOf final : public OrderEngine {
  public:
-  explicit OrderEngineOf(std::string token)
-      : token_(std::move(token)), problems_(ode::standard_problems<Real>()) {}
-
-  [[nodiscard]] const std::string& token() const override { return token_; }
+  OrderEngineOf() : problems_(ode::standard_problems<Real>()) {}
 
   [[nodiscard]] std::vector<std::string> problems() const override {
     std::vector<std::string> names;
@@ -55,7 +52,6 @@ class OrderEngineOf final : public OrderEngine {
     throw std::invalid_argument("no problem is called " + std::string(name));
   }
 
-  std::string token_;
   std::vector<ode::SolvedProblem<Real>> problems_;
 };
 

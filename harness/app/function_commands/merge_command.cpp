@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "harness/app/commands/commands.hpp"
+#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/machine/machine_facts.hpp"
 #include "harness/app/reading/planned_rows.hpp"
 #include "harness/app/run/record_verdicts.hpp"

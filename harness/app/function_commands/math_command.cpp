@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "harness/app/commands/commands.hpp"
+#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/foreign/foreign_options.hpp"
 #include "harness/app/run/plan_run.hpp"
 #include "harness/app/run/record_verdicts.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/app/commands/commands.hpp"
+#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/foreign/foreign_options.hpp"
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/shell/selection.hpp"
