@@ -28,7 +28,11 @@ using multi_word::Terms;
 
 namespace ulpgate {
 
+// complex_double_double.cpp
+DoubleDoubleFunction complex_double_double_function(FunctionId id, std::size_t level);
+
 DoubleDoubleFunction double_double_function(FunctionId id, [[maybe_unused]] std::size_t level) {
+  if (info_of(id).function_class != FunctionClass::real) return complex_double_double_function(id, level);
 #ifdef ULPGATE_LEVELS
   if (level == 2) return dd::avx512::function_of(id);
   if (level == 1) return dd::avx2::function_of(id);

@@ -8,8 +8,8 @@
 
 namespace ulpgate {
 
-// Evaluates f at `count` points, as bounded_function does (native_functions.hpp): |results[i] - f(args of i)|
-// is at most bounds[i] ulp of 2^-99 of the power of two below results[i].  A negative bound says that nothing
+// Evaluates f at `count` points, as bounded_function does (native_functions.hpp), of a complex function both
+// parts, one behind the other: |results[i] - f(args of i)| is at most bounds[i] ulp of 2^-99 of the power of two below results[i].  A negative bound says that nothing
 // is known: of arguments and results near the ends of the range, and of results next to a zero of a function.
 // Else a NaN says that f is not defined there (of arguments of no more than 53 bits: a wider type has numbers
 // beyond double), an infinity that it is beyond double, a zero (of these too) that it is 0 where its bound

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <span>
+#include <sstream>
 
 #include "reference/lanes/levels.hpp"
 #include "reference/multi_word/constants.hpp"
@@ -17,7 +19,9 @@ namespace {
 // Arguments of all sizes that a type may have: doubles, and every other one of 64 bits.
 class Arguments {
  public:
-  DoubleDouble next() {
+  DoubleDouble next(DomainMap domain) {
+    if (domain == DomainMap::UINT) return DoubleDouble(static_cast<double>(words_() % 101));
+    if (domain == DomainMap::INT) return DoubleDouble(static_cast<double>(words_() % 201) - 100);
     double x = 0;
     switch (count_++ % 5) {
       case 0:
@@ -83,6 +87,9 @@ bool is_told_rightly(DoubleDouble value, double bound, mpfr_srcptr exact) {
 std::size_t arity_of(const FunctionInfo& f) {
   return static_cast<std::size_t>(f.arity);
 }
+std::size_t parts_of(const FunctionInfo& f) {
+  return static_cast<std::size_t>(f.parts);
+}
 
 TEST(DoubleDoubleFunctions, KeepTheirBoundsOnEveryProcessor) {
   constexpr std::size_t count = 4000;
@@ -93,40 +100,61 @@ TEST(DoubleDoubleFunctions, KeepTheirBoundsOnEveryProcessor) {
     ++functions;
     Arguments drawn;
     std::vector<DoubleDouble> args(count * arity_of(f));
-    for (auto& a : args) a = drawn.next();
+    for (std::size_t i = 0; i < args.size(); ++i) args[i] = drawn.next(f.domain[i % arity_of(f)]);
     std::vector<MpfrValue> exact_args;
     for (std::size_t k = 0; k < arity_of(f); ++k) exact_args.emplace_back(2200);
     std::vector<MpfrValue> exact;
     // Exact are sums and products of numbers of 2^-400 to 2^400.
-    exact.emplace_back(f.id <= FunctionId::fma ? 2000 : 400);
+    for (std::size_t part = 0; part < parts_of(f); ++part)
+      exact.emplace_back(f.id <= FunctionId::fma ? 2000 : 400);
     for (std::size_t level = 0; level < instruction_levels(); ++level) {
-      std::vector<DoubleDouble> results(count);
-      std::vector<double> bounds(count);
+      std::vector<DoubleDouble> results(count * parts_of(f));
+      std::vector<double> bounds(count * parts_of(f));
       double_double_function(f.id, level)(args.data(), results.data(), bounds.data(), count, 64);
       std::size_t known = 0;
       double largest = 0;
       for (std::size_t i = 0; i < count; ++i) {
-        if (bounds[i] < 0) continue;
-        ++known;
-        ASSERT_LE(bounds[i], 0x1p20) << "the stage looks at 32 bits for a power of two";
+        bool is_known = true;
+        for (std::size_t part = 0; part < parts_of(f); ++part)
+          is_known = is_known && bounds[i * parts_of(f) + part] >= 0;
+        known += is_known ? 1 : 0;
+        // MPFR takes its time for complex and special ones; every second is left out.
+        if (f.function_class != FunctionClass::real && (level + i) % 2 == 0) continue;
         for (std::size_t k = 0; k < arity_of(f); ++k) set(exact_args[k], args[i * arity_of(f) + k]);
-        exact_value(f, exact_args, exact);
-        if (!std::isfinite(results[i].hi) || results[i].hi == 0) {
-          EXPECT_TRUE(is_told_rightly(results[i], bounds[i], exact[0]))
-              << f.name << std::hexfloat << ' ' << args[i * arity_of(f)].hi;
-          continue;
+        bool evaluated = false;
+        for (std::size_t part = 0; part < parts_of(f); ++part) {
+          const DoubleDouble result = results[i * parts_of(f) + part];
+          const double bound = bounds[i * parts_of(f) + part];
+          if (bound < 0) continue;
+          ASSERT_LE(bound, 0x1p20) << "the stage looks at 32 bits for a power of two";
+          if (!evaluated) exact_value(f, exact_args, exact);
+          evaluated = true;
+          const auto where = [&] {
+            std::ostringstream text;
+            text << f.name << " part " << part << " level " << level << std::hexfloat;
+            for (std::size_t k = 0; k < arity_of(f); ++k) {
+              const DoubleDouble x = args[i * arity_of(f) + k];
+              text << ' ' << x.hi << '+' << x.lo;
+            }
+            return text.str();
+          };
+          if (!std::isfinite(result.hi) || result.hi == 0) {
+            EXPECT_TRUE(is_told_rightly(result, bound, exact[part])) << where();
+            continue;
+          }
+          const double error = ulps(result, exact[part]);
+          EXPECT_LE(error, bound) << where();
+          if (bound > 0) largest = std::max(largest, error / bound);
         }
-        const double error = ulps(results[i], exact[0]);
-        EXPECT_LE(error, bounds[i]) << f.name << std::hexfloat << ' ' << args[i * arity_of(f)].hi;
-        largest = std::max(largest, error / bounds[i]);
       }
       // Of numbers of all sizes acosh has a fifth, and fmod those that are two doubles.
       const bool of_doubles = f.id == FunctionId::fmod || f.id == FunctionId::remainder;
-      EXPECT_GT(known, count / (of_doubles ? 10 : 8)) << f.name;
+      const bool harmonic = f.id == FunctionId::spherical_harmonic;  // powers of small sines vanish
+      EXPECT_GT(known, count / (of_doubles || harmonic ? 16 : 8)) << f.name;
       EXPECT_LT(largest, 0.5) << f.name << ": its bound is close to what is seen";
     }
   }
-  EXPECT_EQ(functions, 36U);
+  EXPECT_EQ(functions, 36U + 23U + 3U);
 }
 
 // What is left over of a batch is evaluated singly.
@@ -136,22 +164,28 @@ TEST(DoubleDoubleFunctions, AreTheSameOfOneNumberAndOfMany) {
     if (double_double_function(f.id) == nullptr) continue;
     Arguments drawn;
     std::vector<DoubleDouble> args(count * arity_of(f));
-    for (auto& a : args) a = drawn.next();
+    for (std::size_t i = 0; i < args.size(); ++i) args[i] = drawn.next(f.domain[i % arity_of(f)]);
     for (std::size_t level = 0; level < instruction_levels(); ++level) {
       const auto function = double_double_function(f.id, level);
-      std::vector<DoubleDouble> results(count);
-      std::vector<double> bounds(count);
+      std::vector<DoubleDouble> results(count * parts_of(f));
+      std::vector<double> bounds(count * parts_of(f));
       function(args.data(), results.data(), bounds.data(), count, 64);
       for (std::size_t i = 0; i < count; ++i) {
-        DoubleDouble single;
-        double bound = 0;
-        function(&args[i * arity_of(f)], &single, &bound, 1, 64);
-        ASSERT_EQ(bound < 0, bounds[i] < 0) << f.name;
-        if (bound < 0 || !std::isfinite(single.hi)) continue;
-        const double difference = (single.hi - results[i].hi) + (single.lo - results[i].lo);
-        const double ulp = std::fabs(single.hi) * std::ldexp(1.0, 1 - double_double_bits);
-        ASSERT_LE(std::fabs(difference), ulp * (bound + bounds[i]))
-            << f.name << ' ' << args[i * arity_of(f)].hi;
+        std::array<DoubleDouble, 2> singles;
+        std::array<double, 2> single_bounds{};
+        function(&args[i * arity_of(f)], singles.data(), single_bounds.data(), 1, 64);
+        for (std::size_t part = 0; part < parts_of(f); ++part) {
+          const DoubleDouble single = singles[part];
+          const DoubleDouble many = results[i * parts_of(f) + part];
+          const double bound = single_bounds[part];
+          const double bound_of_many = bounds[i * parts_of(f) + part];
+          ASSERT_EQ(bound < 0, bound_of_many < 0) << f.name;
+          if (bound < 0 || !std::isfinite(single.hi)) continue;
+          const double difference = (single.hi - many.hi) + (single.lo - many.lo);
+          const double ulp = std::fabs(single.hi) * std::ldexp(1.0, 1 - double_double_bits);
+          ASSERT_LE(std::fabs(difference), ulp * (bound + bound_of_many))
+              << f.name << ' ' << args[i * arity_of(f)].hi;
+        }
       }
     }
   }
@@ -177,33 +211,49 @@ TEST(DoubleDoubleFunctions, TellWhatIsNoNumber) {
   std::size_t told = 0;
   for (const FunctionInfo& f : all_functions()) {
     const auto function = double_double_function(f.id);
-    if (function == nullptr) continue;
+    // MPC takes seconds for powers of what has such exponents.
+    if (function == nullptr || f.id == FunctionId::cpow) continue;
     std::vector<MpfrValue> exact_args;
     for (std::size_t k = 0; k < arity_of(f); ++k) exact_args.emplace_back(60);
     std::vector<MpfrValue> exact;
-    exact.emplace_back(400);
+    for (std::size_t part = 0; part < 2; ++part) exact.emplace_back(400);
     for (const double x : edges) {
       for (const double y : edges) {
-        const std::array<DoubleDouble, 3> args = {DoubleDouble{x, 0}, DoubleDouble{y, 0}, DoubleDouble{1, 0}};
-        DoubleDouble result;
-        double bound = 0;
-        function(args.data(), &result, &bound, 1, 53);
+        const std::array<DoubleDouble, 4> args = {DoubleDouble{x, 0}, DoubleDouble{y, 0}, DoubleDouble{1, 0},
+                                                  DoubleDouble{1, 0}};
+        std::array<DoubleDouble, 2> results;
+        std::array<double, 2> bounds{};
+        const DoubleDouble& result = results[0];
+        const double& bound = bounds[0];
+        function(args.data(), results.data(), bounds.data(), 1, 53);
         if (bound < 0 || (std::isfinite(result.hi) && result.hi != 0)) continue;
         EXPECT_TRUE(result.hi != 0 || bound == 0 || std::isfinite(x)) << f.name << '(' << x << ')';
         mpfr_set_d(exact_args[0], x, MPFR_RNDN);
         if (f.arity >= 2) mpfr_set_d(exact_args[1], y, MPFR_RNDN);
-        if (f.arity == 3) mpfr_set_ui(exact_args[2], 1, MPFR_RNDN);
-        exact_value(f, exact_args, exact);
+        for (std::size_t k = 2; k < arity_of(f); ++k) mpfr_set_ui(exact_args[k], 1, MPFR_RNDN);
+        exact_value(f, exact_args, std::span(exact).first(parts_of(f)));
         EXPECT_TRUE(is_told_rightly(result, bound, exact[0])) << f.name << '(' << x << ", " << y << ')';
         ++told;
         // Of a wider type's number that is beyond double nothing is told.
-        function(args.data(), &result, &bound, 1, 64);
+        function(args.data(), results.data(), bounds.data(), 1, 64);
         EXPECT_TRUE(bound < 0 || (!std::isnan(result.hi) && result.hi != 0))
             << f.name << '(' << x << ", " << y << ')';
       }
     }
   }
   EXPECT_GT(told, 50U);
+}
+
+// The imaginary part of e^-1000 is 0 and not merely small.
+TEST(DoubleDoubleFunctions, TellNothingOfComplexNumbersOnAnAxisThatVanish) {
+  for (const FunctionId id : {FunctionId::cexp, FunctionId::ctan, FunctionId::ctanh}) {
+    const bool across = id == FunctionId::ctan;
+    const std::array<DoubleDouble, 2> z = {DoubleDouble{across ? 0.0 : -3000.0, 0}, DoubleDouble{across ? -3000.0 : 0.0, 0}};
+    std::array<DoubleDouble, 2> parts;
+    std::array<double, 2> bounds{};
+    double_double_function(id)(z.data(), parts.data(), bounds.data(), 1, 53);
+    EXPECT_LT(bounds[across ? 0 : 1], 0) << info_of(id).name;
+  }
 }
 
 TEST(DoubleDoubleFunctions, TellNoZeroOfWhatIsBelowDouble) {

@@ -31,11 +31,11 @@ struct ScreenStages {
 // The stages of f: functions of native types where they have trusted bounds.
 [[nodiscard]] inline ScreenStages screen_stages(const FunctionInfo& f) {
   ScreenStages stages;
+  stages.double_double = double_double_function(f.id);
   if (f.function_class != FunctionClass::real) return stages;
   stages.binary64 = bounded_function<double>(f.id);
   if constexpr (std::numeric_limits<long double>::digits == 64)
     stages.x87_extended = bounded_function<long double>(f.id);
-  stages.double_double = double_double_function(f.id);
 #ifdef ULPGATE_HAVE_FLOAT128
   stages.binary128 = bounded_function<Binary128>(f.id);
 #endif
@@ -116,8 +116,11 @@ class ScreenedJudging {
   }
   static auto native_stages([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
     if constexpr (std::same_as<Real, float>) {
+      // For real functions x87 does as well.
+      ScreenStages others = s;
+      if (info_of(f).function_class == FunctionClass::real) others.double_double = nullptr;
       return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
-                            x87_stage(f, s), binary128_stage(f, s));
+                            double_double_stage(f, others), x87_stage(f, s), binary128_stage(f, s));
     } else if constexpr (std::same_as<Real, double>) {
       // What double-double leaves are mostly the ends of the range, which the wider exponents of x87 reach.
       return std::tuple_cat(double_double_stage(f, s), x87_stage(f, s), binary128_stage(f, s));
@@ -146,7 +149,8 @@ class ScreenedJudging {
     bool may = false;
     const auto look = [&]<class Native>(const Native& native) {
       if (!native.exists()) return;
-      may = may || (is_first && scans<Native> && (std::same_as<Real, double> || batch.function.arity == 1));
+      may = may || (is_first && scans<Native> && parts_ == 1 &&
+                    (std::same_as<Real, double> || batch.function.arity == 1));
       is_first = false;
     };
     std::apply([&](const auto&... natives) { (look(natives), ...); }, natives_);
@@ -173,16 +177,17 @@ class ScreenedJudging {
     for (std::size_t p = 0; p < pending_.size(); ++p) {
       const std::size_t i = pending_[p];
       const std::size_t n = whole ? i : p;
-      Finding finding;
-      if (batch.threw[i] == 0 && native.find(n, batch.args_of(i), batch.result_of(i, 0), finding)) {
-        const long double value = native.value(n);
+      std::array<Finding, max_parts> findings;
+      std::array<long double, max_parts> values{};
+      if (find_parts(native, n, batch, i, findings, values)) {
         if (is_checked(batch, i)) {
-          checks_.push_back({i, Native::id, {finding, {}}});
+          checks_.push_back({i, Native::id, findings});
           if (!is_checked_by_all(batch, i)) {
             spared_.push_back(i);
             continue;
           }
-        } else if (tally.settle({&finding, 1}, batch.first_index + i, batch.args_of(i), {&value, 1})) {
+        } else if (tally.settle({findings.data(), parts_}, batch.first_index + i, batch.args_of(i),
+                                {values.data(), parts_})) {
           ++decided_[static_cast<std::size_t>(Native::id)];
           continue;
         }
@@ -190,6 +195,19 @@ class ScreenedJudging {
       pending_[left++] = i;
     }
     pending_.resize(left);
+  }
+
+  // What `native` knows of all parts of sample i, its point n; false where of one it knows nothing.
+  template <class Native>
+  [[nodiscard]] bool find_parts(const Native& native, std::size_t n, const Batch<Real>& batch, std::size_t i,
+                                std::array<Finding, max_parts>& findings,
+                                std::array<long double, max_parts>& values) const {
+    if (batch.threw[i] != 0) return false;
+    for (std::size_t part = 0; part < parts_; ++part) {
+      if (!native.find(n, part, batch.args_of(i), batch.result_of(i, part), findings[part])) return false;
+      values[part] = native.value(n, part);
+    }
+    return true;
   }
 
   // The ordinary ones of a whole batch, many at a time.

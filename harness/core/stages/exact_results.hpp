@@ -57,6 +57,29 @@ template <NativeReal Real>
   }
 }
 
+// Complex functions whose parts are transcendental at every z off the axes, and so neither 0 (oracle.cpp).
+[[nodiscard]] constexpr bool has_transcendental_parts(FunctionId id) {
+  switch (id) {
+    case FunctionId::csin:
+    case FunctionId::csinh:
+    case FunctionId::ccos:
+    case FunctionId::ccosh:
+    case FunctionId::ctan:
+    case FunctionId::ctanh:
+    case FunctionId::casin:
+    case FunctionId::casinh:
+    case FunctionId::cacos:
+    case FunctionId::cacosh:
+    case FunctionId::catan:
+    case FunctionId::catanh:
+    case FunctionId::cexp:
+    case FunctionId::cpolar:
+      return true;
+    default:
+      return false;
+  }
+}
+
 // Of `got`, a normal number next to f(a): is it f(a)?  Elementary functions of algebraic numbers are
 // transcendental but for the arguments excluded here (Lindemann and Weierstrass; Gelfond and Schneider for
 // 2^x and for logarithms to base 2 and 10; Niven, "Irrational Numbers", chapters 9 and 10).
@@ -66,7 +89,16 @@ template <NativeReal Real>
   const Real x = a[0];
   if (!std::isfinite(x)) return Exactness::unknown;
   if (is_transcendental(id)) return rounded_if(x != (has_value_at_one(id) ? Real(1) : Real(0)));
+  if (has_transcendental_parts(id)) return rounded_if(x != 0 && a[1] != 0 && std::isfinite(a[1]));
   switch (id) {
+    case FunctionId::atan2:
+    case FunctionId::carg:
+      // Angles of algebraic numbers are transcendental, but 0.
+      return rounded_if(got != 0);
+    case FunctionId::hypot:
+    case FunctionId::cabs:
+      // It is larger than either.
+      return rounded_if(x != 0 && a[1] != 0 && (got == std::fabs(x) || got == std::fabs(a[1])));
     case FunctionId::exp2:
     case FunctionId::log10:
       // 10^n, n > 0, is an integer; negative powers are no binary numbers.
@@ -108,7 +140,7 @@ struct InexactResults {
 
 [[nodiscard]] constexpr bool is_never_zero(FunctionId id) {
   return id == FunctionId::exp || id == FunctionId::exp2 || id == FunctionId::erfc ||
-         id == FunctionId::tgamma;
+         id == FunctionId::tgamma || has_transcendental_parts(id) || id == FunctionId::cnorm;
 }
 
 [[nodiscard]] constexpr InexactResults inexact_results(FunctionId id) {

@@ -19,14 +19,15 @@ class NativeStage {
  public:
   static constexpr Stage id = S;
 
-  NativeStage(FunctionId f, BoundedFunction<W> function) : id_(f), function_(function) {}
+  NativeStage(FunctionId f, BoundedFunction<W> function)
+      : id_(f), parts_(static_cast<std::size_t>(info_of(f).parts)), function_(function) {}
   [[nodiscard]] bool exists() const { return function_ != nullptr; }
 
   // Evaluates the points of `args`, count * arity values.
   void load(std::span<const Real> args, std::size_t count) {
     args_.resize(args.size());
-    results_.resize(count);
-    bounds_.resize(count);
+    results_.resize(count * parts_);
+    bounds_.resize(count * parts_);
     widen(args);
     function_(args_.data(), results_.data(), bounds_.data(), count, std::numeric_limits<Real>::digits);
   }
@@ -48,11 +49,13 @@ class NativeStage {
             results.size(), first_index,    limits,          inexact_results(id_)};
   }
 
-  [[nodiscard]] long double value(std::size_t i) const { return static_cast<long double>(results_[i]); }
+  [[nodiscard]] long double value(std::size_t i, std::size_t part) const {
+    return static_cast<long double>(results_[i * parts_ + part]);
+  }
 
-  // What is known of `got`, the result at point i of the loaded ones, whose arguments are `args`; false where
-  // the stage has no say: special results, results at the ends of the range, refused arguments.
-  [[nodiscard]] bool find(std::size_t i, const Real* args, Real got, Finding& finding) const {
+  // What is known of `got`, a part of the result at point i of the loaded ones, whose arguments are `args`;
+  // false where the stage has no say: special results, results at the ends of the range, refused arguments.
+  [[nodiscard]] bool find(std::size_t i, std::size_t part, const Real* args, Real got, Finding& finding) const {
     using L = std::numeric_limits<Real>;
     constexpr int p = L::digits;
     constexpr int least_grid = L::min_exponent - 1;
@@ -61,10 +64,10 @@ class NativeStage {
                                    : std::same_as<W, DoubleDouble> ? double_double_least
                                                                    : -900;
     constexpr int greatest_exponent = std::min(L::max_exponent - 1, far ? 16200 : 900);
-    const W value = results_[i];
+    const W value = results_[i * parts_ + part];
     const NumberBits bits = bits_of(value);
     const NumberBits got_bits = bits_of(got);
-    const double bound = bounds_[i];
+    const double bound = bounds_[i * parts_ + part];
     if (bound >= 0 && (got == 0 || !std::isfinite(got))) {
       // A zero without error.
       finding = finding_of({});
@@ -236,6 +239,7 @@ class NativeStage {
       power_of_two(std::numeric_limits<Real>::digits - significand_bits<W>) * (1 + 0x1p-20);
 
   FunctionId id_;
+  std::size_t parts_;
   BoundedFunction<W> function_;
   std::vector<W> args_;
   std::vector<W> results_;

@@ -42,8 +42,8 @@ void count_one_by_one(const Native& stage, const std::vector<Real>& args, const 
     if (verdicts[i] == verdict::unsettled) continue;
     Finding finding;
     const Real* point = &args[i * arity];
-    ASSERT_TRUE(stage.find(i, point, results[i], finding)) << *point;
-    const long double value = stage.value(i);
+    ASSERT_TRUE(stage.find(i, 0, point, results[i], finding)) << *point;
+    const long double value = stage.value(i, 0);
     ASSERT_TRUE(tally.settle({&finding, 1}, first + i, point, {&value, 1})) << *point;
   }
 }
@@ -256,8 +256,8 @@ TEST(NativeStage, DoesNotAgreeToASpuriousOverflow) {
   stage.load(args, args.size());
   Finding finding;
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  EXPECT_FALSE(stage.find(0, &args[0], infinity, finding));
-  EXPECT_TRUE(stage.find(2, &args[2], infinity, finding)) << "beyond the range";
+  EXPECT_FALSE(stage.find(0, 0, &args[0], infinity, finding));
+  EXPECT_TRUE(stage.find(2, 0, &args[2], infinity, finding)) << "beyond the range";
   EXPECT_EQ(finding.outcome, Outcome::finite);
 }
 
@@ -268,7 +268,7 @@ TEST(NativeStage, KnowsHowMuchAZeroMayBeOff) {
                                                     bounded_function<double>(FunctionId::exp));
   stage.load(args, args.size());
   Finding finding;
-  ASSERT_TRUE(stage.find(0, args.data(), 0.0F, finding));
+  ASSERT_TRUE(stage.find(0, 0, args.data(), 0.0F, finding));
   EXPECT_GT(finding.least, 0);
   EXPECT_GE(finding.greatest, std::ldexp(std::exp(-701.0), 149));
   EXPECT_LT(finding.greatest, 0x1p-600);

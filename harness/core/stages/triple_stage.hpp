@@ -45,15 +45,15 @@ class TripleStage {
     if (prepared_ != nullptr) load_prepared(args);
   }
 
-  [[nodiscard]] long double value(std::size_t i) const {
+  [[nodiscard]] long double value(std::size_t i, std::size_t /*part*/) const {
     return std::ldexp(static_cast<long double>(results_[i].hi) + static_cast<long double>(results_[i].mid),
                       scales_[i]);
   }
 
   // As NativeStage::find.  No say is had of zeros, infinities and what is far from double's exponents, and of
   // most results that are too close to the value to tell.
-  [[nodiscard]] bool find(std::size_t i, const Float128Real* args, const Float128Real& result,
-                          Finding& finding) const {
+  [[nodiscard]] bool find(std::size_t i, std::size_t /*part*/, const Float128Real* args,
+                          const Float128Real& result, Finding& finding) const {
     if (id_ == FunctionId::add || id_ == FunctionId::sub) return find_sum(args, result, finding);
     if (find_next_to_limit(args[0].backend().value(), result.backend().value(), finding)) return true;
     const TripleDouble value = results_[i];
