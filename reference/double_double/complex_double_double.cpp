@@ -31,19 +31,23 @@ struct Factorials {
 
 const Factorials& factorials() {
   static const Factorials all = [] {
-    const WideExponentRange wide;
     Factorials f;
-    MpfrValue value(250);
+    // Each product is within 2^-300 of itself.
+    MpfrValue value(300);
+    MpfrValue rest(300);
+    mpfr_set_ui(value, 1, MPFR_RNDN);
+    double scale = 0;
+    bool exact = true;
     for (std::size_t k = 0; k < Factorials::count; ++k) {
-      bool exact = mpfr_fac_ui(value, k, MPFR_RNDN) == 0;
-      f.exponent[k] = static_cast<double>(mpfr_get_exp(value.get()) - 1);
+      if (k > 0) exact = mpfr_mul_ui(value, value, k, MPFR_RNDN) == 0 && exact;
+      scale += static_cast<double>(mpfr_get_exp(value.get()) - 1);
       mpfr_set_exp(value, 1);
       const double hi = mpfr_get_d(value, MPFR_RNDN);
-      mpfr_sub_d(value, value, hi, MPFR_RNDN);
-      const double lo = mpfr_get_d(value, MPFR_RNDN);
-      exact = exact && mpfr_cmp_d(value, lo) == 0;
+      mpfr_sub_d(rest, value, hi, MPFR_RNDN);
+      const double lo = mpfr_get_d(rest, MPFR_RNDN);
       f.mantissa[k] = {hi, lo};
-      f.bound[k] = exact ? 0 : 1;
+      f.exponent[k] = scale;
+      f.bound[k] = exact && mpfr_cmp_d(rest, lo) == 0 ? 0 : 1;
     }
     return f;
   }();

@@ -1,7 +1,10 @@
 // Exact values of the special functions.
 #include "reference/oracle/oracle_special.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -44,22 +47,24 @@ long integer(const MpfrValue& x) {
   return mpfr_get_si(x, nearest);
 }
 
-void laguerre_sum(long n, long m, mpfr_srcptr x, MpfrValue& sum) {
-  const long bits = mpfr_get_prec(sum);
-  MpfrValue power(bits);  // (-x)^k / k!
-  MpfrValue term(bits);
-  mpz_t binomial;
-  mpz_init(binomial);
-  mpfr_set_ui(power, 1, nearest);
-  mpfr_set_zero(sum, 1);
-  for (long k = 0; k <= n; ++k) {
-    mpz_bin_uiui(binomial, static_cast<unsigned long>(n + m), static_cast<unsigned long>(n - k));
-    mpfr_mul_z(term, power, binomial, nearest);
+// sum_k t_k of t_0 = 1, t_(k+1) = -t_k x (n - k) / ((k + 1)(m + k + 1)): L_n^m(x) / C(n + m, n).  Returns how many of
+// the sum's bits are lost: a term has three roundings for each before it, the sums n + 1 together, all of them
+// relative to the largest term.
+long laguerre_sum(long n, long m, mpfr_srcptr x, MpfrValue& sum) {
+  MpfrValue term(mpfr_get_prec(sum));
+  mpfr_set_ui(term, 1, nearest);
+  mpfr_set_ui(sum, 1, nearest);
+  mpfr_exp_t largest = 1;
+  for (long k = 0; k < n; ++k) {
+    mpfr_mul(term, term, x, nearest);
+    mpfr_mul_si(term, term, k - n, nearest);
+    mpfr_div_ui(term, term, static_cast<unsigned long>((k + 1) * (m + k + 1)), nearest);
     mpfr_add(sum, sum, term, nearest);
-    mpfr_mul(power, power, x, nearest);
-    mpfr_div_si(power, power, -(k + 1), nearest);
+    if (mpfr_regular_p(term.get())) largest = std::max(largest, mpfr_get_exp(term.get()));
   }
-  mpz_clear(binomial);
+  if (mpfr_regular_p(sum.get()) == 0) return mpfr_get_prec(sum);
+  const auto size = static_cast<unsigned long>(n + 1);
+  return largest - mpfr_get_exp(sum.get()) + 2 * std::bit_width(size) + 3;
 }
 
 // sqrt((2n+1)/(4 pi) (n-m)!/(n+m)!) P_n^m(cos theta) for 0 <= m <= n, by the upward recurrence in the degree
@@ -123,7 +128,28 @@ void laguerre(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
     }
     return;
   }
-  by_agreement(out[0], [&](long, MpfrValue& sum) { laguerre_sum(n, m, a[2], sum); });
+  // Terms of both signs cancel to about e^(-2 sqrt(n x)) of them, far beyond the zeros hardly.
+  const double x = mpfr_get_d(a[2], nearest);
+  const long wanted = mpfr_get_prec(out[0]) + 16;
+  const auto most = static_cast<double>(8 * n + 4 * m);
+  long bits = wanted + 32 + (x > 0 && x < most ? static_cast<long>(2.9 * std::sqrt(static_cast<double>(n) * x)) : 0);
+  // Of an exact zero all bits are lost at any precision, and what is not one is a whole number over a power of two
+  // and n!, with no more bits than this for arguments of usual size.
+  constexpr long most_bits = 1L << 17U;
+  MpfrValue sum(bits);
+  long lost = laguerre_sum(n, m, a[2], sum);
+  while (bits - lost < wanted && bits < most_bits && mpfr_inexflag_p() != 0) {
+    bits = std::min(most_bits, lost >= bits ? 2 * bits : wanted + lost + 16);
+    mpfr_set_prec(sum, bits);
+    mpfr_clear_inexflag();
+    lost = laguerre_sum(n, m, a[2], sum);
+  }
+  if (lost >= bits) mpfr_set_zero(sum, 1);
+  mpz_t binomial;
+  mpz_init(binomial);
+  mpz_bin_uiui(binomial, static_cast<unsigned long>(n + m), static_cast<unsigned long>(n));
+  mpfr_mul_z(out[0], sum, binomial, nearest);
+  mpz_clear(binomial);
 }
 
 void spherical_harmonic(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
@@ -135,24 +161,21 @@ void spherical_harmonic(std::span<const MpfrValue> a, std::span<MpfrValue> out) 
     mpfr_set_zero(out[1], 1);
     return;
   }
-  const auto part = [&](MpfrValue& result, bool imaginary) {
-    by_agreement(result, [&](long bits, MpfrValue& value) {
-      normalized_legendre(n, order, a[2], value);
-      MpfrValue angle(bits + 64);
-      MpfrValue factor(bits);
-      // e^(i m phi); Y_n^-m = (-1)^m conj(Y_n^m).
-      mpfr_mul_si(angle, a[3], order, nearest);
-      if (imaginary) {
-        mpfr_sin(factor, angle, nearest);
-      } else {
-        mpfr_cos(factor, angle, nearest);
-      }
-      mpfr_mul(value, value, factor, nearest);
-      if (m < 0 && (order % 2 == 1) != imaginary) mpfr_neg(value, value, nearest);
-    });
-  };
-  part(out[0], false);
-  part(out[1], true);
+  // What both parts share, and e^(i m phi); Y_n^-m = (-1)^m conj(Y_n^m).
+  const long bits = mpfr_get_prec(out[0]) + 32;
+  MpfrValue legendre(bits);
+  by_agreement(legendre, [&](long, MpfrValue& value) { normalized_legendre(n, order, a[2], value); });
+  MpfrValue angle(mpfr_get_prec(a[3].get()) + 16);  // exact
+  MpfrValue s(bits);
+  MpfrValue c(bits);
+  mpfr_mul_si(angle, a[3], order, nearest);
+  mpfr_sin_cos(s, c, angle, nearest);
+  mpfr_mul(out[0], legendre, c, nearest);
+  mpfr_mul(out[1], legendre, s, nearest);
+  if (m < 0) {
+    MpfrValue& other = order % 2 == 1 ? out[0] : out[1];
+    mpfr_neg(other, other, nearest);
+  }
 }
 
 }  // namespace ulpgate::oracle

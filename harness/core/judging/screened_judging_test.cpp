@@ -153,6 +153,19 @@ TEST(ScreenedJudging, CheapStagesDecideNearlyEverySample) {
   EXPECT_LT(hint.decided[static_cast<std::size_t>(Stage::mpfr)], 20U);
 }
 
+TEST(ScreenedJudging, DoubleDoubleDecidesNearlyEverySampleOfComplexFunctions) {
+  for (const char* type : {"float", "double", "long_double"}) {
+    if (find_type(type) == nullptr) continue;
+    for (const FunctionInfo& f : all_functions()) {
+      if (f.function_class != FunctionClass::complex) continue;
+      RowHint hint(static_cast<std::size_t>(f.parts));
+      static_cast<void>(find_subject(f.name, type)->evaluate({Stratum::uniform, 1, 2000, nullptr}, 0, 2000,
+                                                             ReferenceMode::screened, hint));
+      EXPECT_GT(hint.decided[static_cast<std::size_t>(Stage::double_double)], 1800U) << f.name << ' ' << type;
+    }
+  }
+}
+
 #ifdef ULPGATE_HAVE_FLOAT128
 TEST(ScreenedJudging, TripleDoubleDecidesNearlyEverySampleOfFloat128) {
   if (find_subject("exp", "float128") == nullptr) GTEST_SKIP() << "float128 is not built";
