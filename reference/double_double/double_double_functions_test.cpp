@@ -248,7 +248,8 @@ TEST(DoubleDoubleFunctions, TellWhatIsNoNumber) {
 TEST(DoubleDoubleFunctions, TellNothingOfComplexNumbersOnAnAxisThatVanish) {
   for (const FunctionId id : {FunctionId::cexp, FunctionId::ctan, FunctionId::ctanh}) {
     const bool across = id == FunctionId::ctan;
-    const std::array<DoubleDouble, 2> z = {DoubleDouble{across ? 0.0 : -3000.0, 0}, DoubleDouble{across ? -3000.0 : 0.0, 0}};
+    const std::array<DoubleDouble, 2> z = {DoubleDouble{across ? 0.0 : -3000.0, 0},
+                                           DoubleDouble{across ? -3000.0 : 0.0, 0}};
     std::array<DoubleDouble, 2> parts;
     std::array<double, 2> bounds{};
     double_double_function(id)(z.data(), parts.data(), bounds.data(), 1, 53);

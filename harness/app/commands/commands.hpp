@@ -1,8 +1,8 @@
-// The verbs of the command line that are not about functions alone; each adds its subcommand and runs when it was chosen.
+// The verbs of the command line that are not about functions alone; each adds its subcommand and runs when it
+// was chosen.
 #pragma once
 
 #include <CLI/CLI.hpp>
-
 #include <vector>
 
 #include "harness/app/function_commands/function_commands.hpp"

@@ -39,7 +39,8 @@ void add_all_commands(CLI::App& app, Action& action, double& timeout_s) {
   add_merge_command(app, action);
   add_report_command(app, action);
   add_compare_output_command(app, action);
-  for (const char* verb : {"kernels", "integrators", "scene", "stress", "work-precision", "advise", "gate", "history", "compare"})
+  for (const char* verb : {"kernels", "integrators", "scene", "stress", "work-precision", "advise", "gate",
+                           "history", "compare"})
     add_absent(app, action, verb);
   add_timeout_option(app, timeout_s);
   make_options_strict(app);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/foreign/foreign_options.hpp"
+#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/shell/selection.hpp"
 #include "harness/app/store/records.hpp"

@@ -1,9 +1,8 @@
-// The verbs about functions, which a program of functions alone (ULPGATE_FUNCTIONS_ONLY) has too; each adds its subcommand
-// and runs when it was chosen.
+// The verbs about functions, which a program of functions alone (ULPGATE_FUNCTIONS_ONLY) has too; each adds
+// its subcommand and runs when it was chosen.
 #pragma once
 
 #include <CLI/CLI.hpp>
-
 #include <functional>
 #include <string>
 #include <vector>

@@ -16,7 +16,8 @@ namespace ulpgate::app {
 
 using Table = std::vector<std::vector<std::string>>;
 
-// `rows` where `json`, else `table`, whose first line is its head; `sides` as aligned() wants them, a letter a column.
+// `rows` where `json`, else `table`, whose first line is its head; `sides` as aligned() wants them, a letter
+// a column.
 inline void print_listing(bool json, const Json& rows, const Table& table, std::string_view sides) {
   if (json) {
     fmt::print("{}\n", rows.dump(2));

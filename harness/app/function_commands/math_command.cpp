@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/foreign/foreign_options.hpp"
+#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/run/plan_run.hpp"
 #include "harness/app/run/record_verdicts.hpp"
 #include "harness/app/store/worst_cases.hpp"

@@ -7,8 +7,8 @@
 #include <limits>
 #include <thread>
 
-#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/foreign/foreign_options.hpp"
+#include "harness/app/function_commands/function_commands.hpp"
 #include "harness/app/machine/environment.hpp"
 #include "harness/app/machine/threads.hpp"
 #include "harness/app/search/search_round.hpp"

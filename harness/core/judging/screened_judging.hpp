@@ -32,7 +32,10 @@ struct ScreenStages {
 [[nodiscard]] inline ScreenStages screen_stages(const FunctionInfo& f) {
   ScreenStages stages;
   stages.double_double = double_double_function(f.id);
-  if (f.function_class != FunctionClass::real) return stages;
+  if (f.function_class != FunctionClass::real) {
+    stages.x87_extended = extended_function(f.id);
+    return stages;
+  }
   stages.binary64 = bounded_function<double>(f.id);
   if constexpr (std::numeric_limits<long double>::digits == 64)
     stages.x87_extended = bounded_function<long double>(f.id);

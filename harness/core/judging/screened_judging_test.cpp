@@ -159,8 +159,9 @@ TEST(ScreenedJudging, DoubleDoubleDecidesNearlyEverySampleOfComplexFunctions) {
     for (const FunctionInfo& f : all_functions()) {
       if (f.function_class != FunctionClass::complex) continue;
       RowHint hint(static_cast<std::size_t>(f.parts));
-      static_cast<void>(find_subject(f.name, type)->evaluate({Stratum::uniform, 1, 2000, nullptr}, 0, 2000,
-                                                             ReferenceMode::screened, hint));
+      static_cast<void>(
+          find_subject(f.name, type)
+              ->evaluate({Stratum::uniform, 1, 2000, nullptr}, 0, 2000, ReferenceMode::screened, hint));
       EXPECT_GT(hint.decided[static_cast<std::size_t>(Stage::double_double)], 1800U) << f.name << ' ' << type;
     }
   }

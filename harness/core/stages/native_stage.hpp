@@ -55,7 +55,8 @@ class NativeStage {
 
   // What is known of `got`, a part of the result at point i of the loaded ones, whose arguments are `args`;
   // false where the stage has no say: special results, results at the ends of the range, refused arguments.
-  [[nodiscard]] bool find(std::size_t i, std::size_t part, const Real* args, Real got, Finding& finding) const {
+  [[nodiscard]] bool find(std::size_t i, std::size_t part, const Real* args, Real got,
+                          Finding& finding) const {
     using L = std::numeric_limits<Real>;
     constexpr int p = L::digits;
     constexpr int least_grid = L::min_exponent - 1;
