@@ -137,6 +137,7 @@ BoundedFunction<long double> extended_function(FunctionId id) {
     ULPGATE_EACH_OF_TWO_PARTS(ULPGATE_ROW)
     ULPGATE_EACH_OF_ONE_PART(ULPGATE_ROW)
     ULPGATE_ROW(cpow)
+    ULPGATE_ROW(cyl_bessel_j)
     ULPGATE_ROW(laguerre)
     ULPGATE_ROW(spherical_harmonic)
 #undef ULPGATE_ROW
