@@ -157,6 +157,10 @@ Wide complex_sensitivity(FunctionId id, const Wide* a, int part) {
       const Wide s = std::fabs(a[0] * std::sin(a[1]));
       return part == 0 ? c + std::fabs(a[1]) * s : s + std::fabs(a[1]) * c;
     }
+    case FunctionId::cabs:
+      return std::hypot(a[0], a[1]);
+    case FunctionId::cnorm:
+      return 2 * (a[0] * a[0] + a[1] * a[1]);
     case FunctionId::carg:
       return 2 * std::fabs(a[0] / (a[0] * a[0] + a[1] * a[1]) * a[1]);
     default:

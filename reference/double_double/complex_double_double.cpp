@@ -1,6 +1,7 @@
 // Complex and special functions in double-double, for processors with and without fused multiply-add.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,6 +10,7 @@
 #include "reference/double_double/double_double_functions.hpp"
 #include "reference/lanes/levels.hpp"
 #include "reference/multi_word/constants.hpp"
+#include "reference/native/native_functions.hpp"
 #include "reference/types/mpfr_value.hpp"
 
 #ifdef __clang__
@@ -57,9 +59,9 @@ const Factorials& factorials() {
   return all;
 }
 
-// Each part is results[i] 2^scales[i]; arguments have no more than 53 bits.
+// Each part is results[i] 2^scales[i].
 using ScaledFunction = void (*)(const DoubleDouble* args, DoubleDouble* results, double* scales,
-                                double* bounds, std::size_t count);
+                                double* bounds, std::size_t count, int argument_bits);
 struct OneFunction {
   DoubleDoubleFunction pairs = nullptr;
   ScaledFunction scaled = nullptr;
@@ -100,40 +102,68 @@ DoubleDoubleFunction complex_double_double_function(FunctionId id, std::size_t l
 
 namespace {
 
-// The rounding to 64 bits is half an ulp, and what is left of 2^-99 times 2^20 much less.
-template <FunctionId id>
-void extended(const long double* args, long double* results, double* bounds, std::size_t count,
-              int argument_bits) {
+// 2^e, |e| < 16000.
+[[maybe_unused]] long double power_of_two(long double /*like*/, int e) {
+  return std::ldexp(1.0L, e);
+}
+template <class W>
+struct Format;
+template <>
+struct Format<long double> {
+  static constexpr int bits = std::numeric_limits<long double>::digits;
+};
+#ifdef ULPGATE_HAVE_FLOAT128
+[[maybe_unused]] Binary128 power_of_two(Binary128 /*like*/, int e) {
+  return std::bit_cast<Binary128>(static_cast<unsigned __int128>(e + 16383) << 112U);
+}
+template <>
+struct Format<Binary128> {
+  static constexpr int bits = 113;
+};
+#endif
+
+// Half an ulp of W for what is rounded to it, and the pair's own, relatively 2^-99 each.
+template <class W, FunctionId id>
+void extended(const W* args, W* results, double* bounds, std::size_t count, int argument_bits) {
   static const auto scaled = one_function(id, instruction_levels() - 1).scaled;
   static const auto arity = static_cast<std::size_t>(info_of(id).arity);
   static const auto parts = static_cast<std::size_t>(info_of(id).parts);
+  constexpr double least = -16300;
+  constexpr double ulps = Format<W>::bits > double_double_bits ? 0x1p14 : 0x1p-34;
   constexpr std::size_t block = 64;
   std::array<DoubleDouble, max_arity * block> pairs;
   std::array<DoubleDouble, max_parts * block> values;
   std::array<double, max_parts * block> scales{};
   for (std::size_t first = 0; first < count; first += block) {
     const std::size_t n = std::min(block, count - first);
-    for (std::size_t k = 0; k < n * arity; ++k) pairs[k] = DoubleDouble(args[first * arity + k]);
+    for (std::size_t k = 0; k < n * arity; ++k) {
+      const W x = args[first * arity + k];
+      const auto high = static_cast<double>(x);
+      pairs[k] = {high, high - high == 0 ? static_cast<double>(x - static_cast<W>(high)) : 0};
+    }
     double* bound = bounds + first * parts;
-    scaled(pairs.data(), values.data(), scales.data(), bound, n);
+    scaled(pairs.data(), values.data(), scales.data(), bound, n, argument_bits);
     for (std::size_t k = 0; k < n * parts; ++k) {
-      const auto mantissa = static_cast<long double>(values[k]);
-      const bool known = argument_bits <= 53 && bound[k] >= 0 && mantissa != 0 && mantissa - mantissa == 0;
-      const long double value = known ? std::ldexp(mantissa, static_cast<int>(scales[k])) : 0;
-      results[first * parts + k] = value;
-      bound[k] = std::isnormal(value) ? 1 : -1;
+      const DoubleDouble value = values[k];
+      const double exponent =
+          value.hi != 0 && value.hi - value.hi == 0 ? scales[k] + std::ilogb(value.hi) : least - 1;
+      const bool known = bound[k] >= 0 && exponent > least && exponent < -least && std::fabs(scales[k]) < -least;
+      results[first * parts + k] =
+          known ? (static_cast<W>(value.hi) + static_cast<W>(value.lo)) * power_of_two(W(), static_cast<int>(scales[k]))
+                : W(0);
+      bound[k] = known ? 1 + bound[k] * ulps : -1;
     }
   }
 }
 
 }  // namespace
 
-BoundedFunction<long double> extended_function(FunctionId id) {
-  if (std::numeric_limits<long double>::digits != 64) return nullptr;
+template <class W>
+BoundedFunction<W> extended_function(FunctionId id) {
   switch (id) {
 #define ULPGATE_ROW(name) \
   case FunctionId::name:  \
-    return &extended<FunctionId::name>;
+    return &extended<W, FunctionId::name>;
     ULPGATE_EACH_OF_TWO_PARTS(ULPGATE_ROW)
     ULPGATE_EACH_OF_ONE_PART(ULPGATE_ROW)
     ULPGATE_ROW(cpow)
@@ -145,5 +175,10 @@ BoundedFunction<long double> extended_function(FunctionId id) {
       return nullptr;
   }
 }
+
+template BoundedFunction<long double> extended_function<long double>(FunctionId id);
+#ifdef ULPGATE_HAVE_FLOAT128
+template BoundedFunction<Binary128> extended_function<Binary128>(FunctionId id);
+#endif
 
 }  // namespace ulpgate

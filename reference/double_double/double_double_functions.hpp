@@ -15,7 +15,7 @@ namespace ulpgate {
 // of the range, and of results next to a zero of a function. Else a NaN says that f is not defined there (of
 // arguments of no more than 53 bits: a wider type has numbers beyond double), an infinity that it is beyond
 // double, a zero (of these too) that it is 0 where its bound is, and where that is 1 that it is no zero and
-// below 2^-1100.
+// below 2^-1100; either with a bound of 2 lies beyond 2^20000 or below 2^-20000.
 using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* results, double* bounds,
                                       std::size_t count, int argument_bits);
 
@@ -23,10 +23,10 @@ using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* re
 // like), for round to nearest; nothing of the C library is called.
 [[nodiscard]] DoubleDoubleFunction double_double_function(FunctionId id);
 
-// Complex and special functions as numbers of x87, bounded_function's way, where double-double has results
-// that double's exponents do not hold: of arguments of no more than 53 bits, nullptr where there is none or
-// no x87.
-[[nodiscard]] BoundedFunction<long double> extended_function(FunctionId id);
+// Complex and special functions as numbers of x87 or binary128, bounded_function's way, which hold results that
+// double's exponents do not; nullptr where there is none.
+template <class W>
+[[nodiscard]] BoundedFunction<W> extended_function(FunctionId id);
 
 // Of one instruction set, below instruction_levels(); for tests.
 [[nodiscard]] DoubleDoubleFunction double_double_function(FunctionId id, std::size_t level);

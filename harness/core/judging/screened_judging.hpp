@@ -33,7 +33,11 @@ struct ScreenStages {
   ScreenStages stages;
   stages.double_double = double_double_function(f.id);
   if (f.function_class != FunctionClass::real) {
-    stages.x87_extended = extended_function(f.id);
+    if constexpr (std::numeric_limits<long double>::digits == 64)
+      stages.x87_extended = extended_function<long double>(f.id);
+#ifdef ULPGATE_HAVE_FLOAT128
+    stages.binary128 = extended_function<Binary128>(f.id);
+#endif
     return stages;
   }
   stages.binary64 = bounded_function<double>(f.id);
@@ -117,16 +121,25 @@ class ScreenedJudging {
     return std::tuple();
 #endif
   }
+  // Of real functions of float x87 does as well.
+  static ScreenStages without_x87(FunctionId f, ScreenStages s) {
+    if (info_of(f).function_class == FunctionClass::real) s.double_double = nullptr;
+    return s;
+  }
+  // What is not real is double-double in other numbers: x87's have all that those of float and double say.
+  static ScreenStages without_double([[maybe_unused]] FunctionId f, ScreenStages s) {
+#ifdef ULPGATE_HAVE_FLOAT128
+    if (info_of(f).function_class != FunctionClass::real) s.binary128 = nullptr;
+#endif
+    return s;
+  }
   static auto native_stages([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
     if constexpr (std::same_as<Real, float>) {
-      // For real functions x87 does as well.
-      ScreenStages others = s;
-      if (info_of(f).function_class == FunctionClass::real) others.double_double = nullptr;
       return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
-                            double_double_stage(f, others), x87_stage(f, s), binary128_stage(f, s));
+                            double_double_stage(f, without_x87(f, s)), x87_stage(f, s), binary128_stage(f, without_double(f, s)));
     } else if constexpr (std::same_as<Real, double>) {
       // What double-double leaves are mostly the ends of the range, which the wider exponents of x87 reach.
-      return std::tuple_cat(double_double_stage(f, s), x87_stage(f, s), binary128_stage(f, s));
+      return std::tuple_cat(double_double_stage(f, s), x87_stage(f, s), binary128_stage(f, without_double(f, s)));
     } else if constexpr (std::same_as<Real, long double> && NativeBits<long double>) {
       return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, s));
 #ifdef ULPGATE_HAVE_FLOAT128

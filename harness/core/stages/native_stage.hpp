@@ -207,14 +207,15 @@ class NativeStage {
       // A pole, or beyond the range by more than the bound.  Where W has the exponents of Real its infinity
       // says too little.
       const bool infinite = value - value != 0;
-      if (infinite ? std::same_as<Real, long double> : !bits.normal || bits.exponent < least_overflow(bound))
+      if (infinite ? std::same_as<Real, long double> && bound != 2 : !bits.normal || bits.exponent < least_overflow(bound))
         return false;
       finding = finding_of({});
       return true;
     }
     // |value| < 2^(exponent + 1), in units of the least subnormal.
     constexpr int least = L::min_exponent - L::digits;
-    const int exponent = std::same_as<W, DoubleDouble> && value == 0 ? double_double_zero : bits.exponent;
+    const int zero = bound == 2 ? -20000 : double_double_zero;
+    const int exponent = std::same_as<W, DoubleDouble> && value == 0 ? zero : bits.exponent;
     const int size = exponent + 1 - least;
     if (size > (gradual ? 0 : -20)) return false;
     if (gradual && size > -20) {
