@@ -10,7 +10,6 @@
 #include "reference/double_double/double_double_functions.hpp"
 #include "reference/lanes/levels.hpp"
 #include "reference/multi_word/constants.hpp"
-#include "reference/native/native_functions.hpp"
 #include "reference/types/mpfr_value.hpp"
 
 #ifdef __clang__
@@ -147,10 +146,11 @@ void extended(const W* args, W* results, double* bounds, std::size_t count, int 
       const DoubleDouble value = values[k];
       const double exponent =
           value.hi != 0 && value.hi - value.hi == 0 ? scales[k] + std::ilogb(value.hi) : least - 1;
-      const bool known = bound[k] >= 0 && exponent > least && exponent < -least && std::fabs(scales[k]) < -least;
-      results[first * parts + k] =
-          known ? (static_cast<W>(value.hi) + static_cast<W>(value.lo)) * power_of_two(W(), static_cast<int>(scales[k]))
-                : W(0);
+      const bool known =
+          bound[k] >= 0 && exponent > least && exponent < -least && std::fabs(scales[k]) < -least;
+      results[first * parts + k] = known ? (static_cast<W>(value.hi) + static_cast<W>(value.lo)) *
+                                               power_of_two(W(), static_cast<int>(scales[k]))
+                                         : W(0);
       bound[k] = known ? 1 + bound[k] * ulps : -1;
     }
   }

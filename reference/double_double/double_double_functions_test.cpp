@@ -82,7 +82,8 @@ bool is_told_rightly(DoubleDouble value, double bound, mpfr_srcptr exact) {
   const int greatest = bound == 2 ? 20000 : 1024;
   if (value.hi == 0 && bound >= 1) return mpfr_zero_p(exact) != 0 || mpfr_get_exp(exact) <= least;
   if (value.hi == 0) return mpfr_zero_p(exact) != 0;
-  return (mpfr_sgn(exact) > 0) == (value.hi > 0) && (mpfr_inf_p(exact) != 0 || mpfr_get_exp(exact) > greatest);
+  return (mpfr_sgn(exact) > 0) == (value.hi > 0) &&
+         (mpfr_inf_p(exact) != 0 || mpfr_get_exp(exact) > greatest);
 }
 
 std::size_t arity_of(const FunctionInfo& f) {

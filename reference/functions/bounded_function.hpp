@@ -5,6 +5,10 @@
 
 namespace ulpgate {
 
+#ifdef ULPGATE_HAVE_FLOAT128
+using Binary128 = __float128;
+#endif
+
 // Evaluates f at `count` points: args holds count * arity values.  |results[i] - f(args of i)| is at most
 // bounds[i] ulp of results[i] in W, wherever results[i] is a normal number of W; a negative bound says that
 // nothing is known.  Otherwise a NaN says that f is not defined there, an infinity that it has a pole or

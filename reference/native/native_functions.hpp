@@ -6,10 +6,6 @@
 
 namespace ulpgate {
 
-#ifdef ULPGATE_HAVE_FLOAT128
-using Binary128 = __float128;
-#endif
-
 // W is double, long double with 64 bits (x87), or Binary128; nullptr where the type has no function whose
 // bound is trusted.
 //

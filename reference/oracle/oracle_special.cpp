@@ -47,9 +47,9 @@ long integer(const MpfrValue& x) {
   return mpfr_get_si(x, nearest);
 }
 
-// sum_k t_k of t_0 = 1, t_(k+1) = -t_k x (n - k) / ((k + 1)(m + k + 1)): L_n^m(x) / C(n + m, n).  Returns how many of
-// the sum's bits are lost: a term has three roundings for each before it, the sums n + 1 together, all of them
-// relative to the largest term.
+// sum_k t_k of t_0 = 1, t_(k+1) = -t_k x (n - k) / ((k + 1)(m + k + 1)): L_n^m(x) / C(n + m, n).  Returns how
+// many of the sum's bits are lost: a term has three roundings for each before it, the sums n + 1 together,
+// all of them relative to the largest term.
 long laguerre_sum(long n, long m, mpfr_srcptr x, MpfrValue& sum) {
   MpfrValue term(mpfr_get_prec(sum));
   mpfr_set_ui(term, 1, nearest);
@@ -132,9 +132,10 @@ void laguerre(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
   const double x = mpfr_get_d(a[2], nearest);
   const long wanted = mpfr_get_prec(out[0]) + 16;
   const auto most = static_cast<double>(8 * n + 4 * m);
-  long bits = wanted + 32 + (x > 0 && x < most ? static_cast<long>(2.9 * std::sqrt(static_cast<double>(n) * x)) : 0);
-  // Of an exact zero all bits are lost at any precision, and what is not one is a whole number over a power of two
-  // and n!, with no more bits than this for arguments of usual size.
+  long bits =
+      wanted + 32 + (x > 0 && x < most ? static_cast<long>(2.9 * std::sqrt(static_cast<double>(n) * x)) : 0);
+  // Of an exact zero all bits are lost at any precision, and what is not one is a whole number over a power
+  // of two and n!, with no more bits than this for arguments of usual size.
   constexpr long most_bits = 1L << 17U;
   MpfrValue sum(bits);
   long lost = laguerre_sum(n, m, a[2], sum);

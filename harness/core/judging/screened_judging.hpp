@@ -136,10 +136,12 @@ class ScreenedJudging {
   static auto native_stages([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
     if constexpr (std::same_as<Real, float>) {
       return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
-                            double_double_stage(f, without_x87(f, s)), x87_stage(f, s), binary128_stage(f, without_double(f, s)));
+                            double_double_stage(f, without_x87(f, s)), x87_stage(f, s),
+                            binary128_stage(f, without_double(f, s)));
     } else if constexpr (std::same_as<Real, double>) {
       // What double-double leaves are mostly the ends of the range, which the wider exponents of x87 reach.
-      return std::tuple_cat(double_double_stage(f, s), x87_stage(f, s), binary128_stage(f, without_double(f, s)));
+      return std::tuple_cat(double_double_stage(f, s), x87_stage(f, s),
+                            binary128_stage(f, without_double(f, s)));
     } else if constexpr (std::same_as<Real, long double> && NativeBits<long double>) {
       return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, s));
 #ifdef ULPGATE_HAVE_FLOAT128

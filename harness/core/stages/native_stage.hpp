@@ -207,7 +207,8 @@ class NativeStage {
       // A pole, or beyond the range by more than the bound.  Where W has the exponents of Real its infinity
       // says too little.
       const bool infinite = value - value != 0;
-      if (infinite ? std::same_as<Real, long double> && bound != 2 : !bits.normal || bits.exponent < least_overflow(bound))
+      if (infinite ? std::same_as<Real, long double> && bound != 2
+                   : !bits.normal || bits.exponent < least_overflow(bound))
         return false;
       finding = finding_of({});
       return true;

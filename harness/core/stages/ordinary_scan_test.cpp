@@ -135,7 +135,8 @@ TEST(WideScan, SettlesNothingThatTheStageWouldNotAndCountsItAlike) {
   for (const FunctionInfo& f : all_functions()) {
     const ScreenStages stages = screen_stages(f);
     // Neither parts nor what is of whole numbers is scanned here.
-    if (stages.double_double == nullptr || f.parts != 1 || f.function_class == FunctionClass::special) continue;
+    if (stages.double_double == nullptr || f.parts != 1 || f.function_class == FunctionClass::special)
+      continue;
     ++scanned;
     constexpr std::size_t count = 20000;
     const std::vector<double> args = many_doubles(count * static_cast<std::size_t>(f.arity));
