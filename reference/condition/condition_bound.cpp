@@ -234,7 +234,9 @@ double condition_lower_bound(const FunctionInfo& f, const long double* args, lon
     const Wide condition = std::fabs(real_condition(f.id, args, value)) * margin;
     return std::isfinite(args[0]) && condition > 0 ? static_cast<double>(std::min(condition, 1e300L)) : 0;
   }
-  if (value == 0 || !ordinary(value)) return 0;
+  // e^(-x^2) and erfc x become small together, with all of their bits.
+  const bool small_together = f.id == FunctionId::erfc && std::fabs(value) > 0x1p-16300L;
+  if (value == 0 || !(ordinary(value) || small_together)) return 0;
   for (int i = 0; i < f.arity; ++i) {
     if (!ordinary(args[i])) return 0;
   }

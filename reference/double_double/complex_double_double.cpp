@@ -167,6 +167,7 @@ BoundedFunction<W> extended_function(FunctionId id) {
     ULPGATE_EACH_OF_TWO_PARTS(ULPGATE_ROW)
     ULPGATE_EACH_OF_ONE_PART(ULPGATE_ROW)
     ULPGATE_ROW(cpow)
+    ULPGATE_ROW(erfc)
     ULPGATE_ROW(cyl_bessel_j)
     ULPGATE_ROW(laguerre)
     ULPGATE_ROW(spherical_harmonic)

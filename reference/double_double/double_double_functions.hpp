@@ -23,8 +23,8 @@ using DoubleDoubleFunction = void (*)(const DoubleDouble* args, DoubleDouble* re
 // like), for round to nearest; nothing of the C library is called.
 [[nodiscard]] DoubleDoubleFunction double_double_function(FunctionId id);
 
-// Complex and special functions as numbers of x87 or binary128, bounded_function's way, which hold results
-// that double's exponents do not; nullptr where there is none.
+// Complex and special functions, and erfc beyond 24, as numbers of x87 or binary128, bounded_function's way,
+// which hold results that double's exponents do not; nullptr where there is none.
 template <class W>
 [[nodiscard]] BoundedFunction<W> extended_function(FunctionId id);
 

@@ -39,6 +39,13 @@ class SplitMix64 {
   std::uint64_t state_;
 };
 
+namespace detail {
+
+void philox_first_words(std::array<std::uint64_t, 2> key, std::uint64_t k, std::uint64_t argument,
+                        std::span<std::uint64_t> words);
+
+}  // namespace detail
+
 // One stream per (seed, function, stratum).  Philox4x64-10: Salmon et al., "Parallel random numbers: as easy
 // as 1, 2, 3", SC'11.
 class RandomStream {
@@ -59,43 +66,10 @@ class RandomStream {
   // The first word of each of the points from k on, words.size() of them: the same rounds without what other
   // words need alone.
   void first_words(std::uint64_t k, std::uint64_t argument, std::span<std::uint64_t> words) const {
-    std::array<std::array<std::uint64_t, 2>, rounds> keys;
-    keys[0] = {key_[0], key_[1]};
-    for (std::size_t r = 1; r < rounds; ++r)
-      keys[r] = {keys[r - 1][0] + PHILOX_W64_0, keys[r - 1][1] + PHILOX_W64_1};
-    // Of the counter's two zeros the first round makes one more, and a number that all points share.
-    const Product shared = product(PHILOX_M4x64_0, argument ^ keys[0][0]);
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      const Product first = product(PHILOX_M4x64_0, k + i);
-      Product b = product(PHILOX_M4x64_1, first.high ^ keys[0][1]);
-      std::uint64_t c0 = b.high ^ keys[1][0];
-      std::uint64_t c1 = b.low;
-      std::uint64_t c2 = shared.high ^ first.low ^ keys[1][1];
-      std::uint64_t c3 = shared.low;
-#pragma GCC unroll 8
-      for (std::size_t r = 2; r + 1 < rounds; ++r) {
-        const Product a = product(PHILOX_M4x64_0, c0);
-        b = product(PHILOX_M4x64_1, c2);
-        c0 = b.high ^ c1 ^ keys[r][0];
-        c1 = b.low;
-        c2 = a.high ^ c3 ^ keys[r][1];
-        c3 = a.low;
-      }
-      words[i] = product(PHILOX_M4x64_1, c2).high ^ c1 ^ keys[rounds - 1][0];
-    }
+    detail::philox_first_words({key_[0], key_[1]}, k, argument, words);
   }
 
  private:
-  static constexpr std::size_t rounds = 10;
-  struct Product {
-    std::uint64_t high;
-    std::uint64_t low;
-  };
-  static Product product(std::uint64_t a, std::uint64_t b) {
-    const auto p = static_cast<unsigned __int128>(a) * b;
-    return {static_cast<std::uint64_t>(p >> 64U), static_cast<std::uint64_t>(p)};
-  }
-
   r123::Philox4x64::key_type key_;
 };
 

@@ -22,7 +22,7 @@ namespace ulpgate {
 [[nodiscard]] constexpr std::uint64_t oracle_stride(const StratumSource& source) {
   constexpr std::uint64_t small_row = std::uint64_t{1} << 18U;
   if (source.stratum == Stratum::exhaustive) return 65537;
-  return source.count <= small_row ? 251 : 4093;
+  return source.count <= small_row ? 251 : 16381;
 }
 // The oracles agree when they differ by less than this, in ULP of Real; both carry some 3 p bits more than
 // Real.
