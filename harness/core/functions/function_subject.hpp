@@ -102,6 +102,7 @@ class FunctionSubject final : public Subject {
   }
   [[nodiscard]] Point point(const std::vector<MpfrValue>& values) const override {
     std::vector<Real> args;
+    args.reserve(values.size());
     for (const auto& v : values) args.push_back(from_mpfr<Real>(v));
     return describe_point(args);
   }
@@ -194,6 +195,7 @@ class FunctionSubject final : public Subject {
     const FunctionInfo& f = function_;
     const auto parts = static_cast<std::size_t>(f.parts);
     std::vector<Reference> wide;
+    wide.reserve(static_cast<std::size_t>(f.arity));
     for (int j = 0; j < f.arity; ++j) wide.push_back(widen<Reference>(args[j]));
     std::vector<Reference> family(parts);
     std::uint8_t threw = 0;

@@ -44,9 +44,7 @@ struct ScreenStages {
   if constexpr (std::numeric_limits<long double>::digits == 64)
     stages.x87_extended = bounded_function<long double>(f.id);
 #ifdef ULPGATE_HAVE_FLOAT128
-  // What is beyond double's exponents libquadmath needs microseconds for.
-  stages.binary128 =
-      f.id == FunctionId::erfc ? extended_function<Binary128>(f.id) : bounded_function<Binary128>(f.id);
+  stages.binary128 = bounded_function<Binary128>(f.id);
 #endif
   stages.triple_double = triple_double_function(f.id);
   return stages;
@@ -135,6 +133,13 @@ class ScreenedJudging {
 #endif
     return s;
   }
+  // For an erfc below double's range libquadmath needs microseconds.
+  static ScreenStages beyond_double([[maybe_unused]] FunctionId f, ScreenStages s) {
+#ifdef ULPGATE_HAVE_FLOAT128
+    if (f == FunctionId::erfc && s.binary128 != nullptr) s.binary128 = extended_function<Binary128>(f);
+#endif
+    return s;
+  }
   static auto native_stages([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
     if constexpr (std::same_as<Real, float>) {
       return std::tuple_cat(std::tuple(NativeStage<Real, double, Stage::binary64>(f, s.binary64)),
@@ -145,7 +150,7 @@ class ScreenedJudging {
       return std::tuple_cat(double_double_stage(f, s), x87_stage(f, s),
                             binary128_stage(f, without_double(f, s)));
     } else if constexpr (std::same_as<Real, long double> && NativeBits<long double>) {
-      return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, s));
+      return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, beyond_double(f, s)));
 #ifdef ULPGATE_HAVE_FLOAT128
     } else if constexpr (Float128Backed<Real>) {
       return std::tuple(TripleStage(f, s.triple_double));

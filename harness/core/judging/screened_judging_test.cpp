@@ -69,6 +69,7 @@ void lying_double_double(const DoubleDouble* args, DoubleDouble* results, double
   }
 }
 
+#ifdef ULPGATE_HAVE_FLOAT128
 void lying_triple_double(const TripleDouble* args, TripleDouble* results, double* scales, double* bounds,
                          std::size_t count) {
   triple_double_function(FunctionId::exp)(args, results, scales, bounds, count);
@@ -77,6 +78,7 @@ void lying_triple_double(const TripleDouble* args, TripleDouble* results, double
     bounds[i] = 0.5;
   }
 }
+#endif
 
 // Judges exp(0.5) as the point with this index.
 template <class Real>
