@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// Where ULPGATE_ONE_LEVEL is defined a source has the first of them alone.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(ULPGATE_ONE_LEVEL)
 #define ULPGATE_LEVELS
 #include <immintrin.h>
 #endif

@@ -235,6 +235,26 @@ class ScreenedJudging {
     return true;
   }
 
+  // Calls `look` with each index of eight bytes that have one of the bits of `mask`, and with the last few.
+  template <class Look>
+  static void for_marked(std::span<const std::uint8_t> bytes, std::uint64_t mask, Look&& look) {
+    constexpr std::size_t step = 32;
+    const auto word = [&](std::size_t i) {
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, &bytes[i], sizeof eight);
+      return eight & mask;
+    };
+    std::size_t i = 0;
+    for (; i + step <= bytes.size(); i += step) {
+      if ((word(i) | word(i + 8) | word(i + 16) | word(i + 24)) == 0) continue;
+      for (std::size_t from = i; from < i + step; from += 8) {
+        if (word(from) == 0) continue;
+        for (std::size_t j = from; j < from + 8; ++j) look(j);
+      }
+    }
+    for (; i < bytes.size(); ++i) look(i);
+  }
+
   // The ordinary ones of a whole batch, many at a time.
   template <class Native>
   void settle_ordinary(const Native& native, const Batch<Real>& batch, RowTally<Real>& tally) {
@@ -246,30 +266,16 @@ class ScreenedJudging {
     for (std::size_t i = past_check == 0 ? 0 : stride_ - past_check; i < batch.count(); i += stride_)
       verdicts_[i] = verdict::unsettled;
     // What is no value was scanned like one.
-    std::uint8_t threw = 0;
-    for (const auto t : batch.threw) threw = static_cast<std::uint8_t>(threw | t);
-    for (std::size_t i = 0; threw != 0 && i < batch.count(); ++i)
+    for_marked(batch.threw, ~std::uint64_t{0}, [&](std::size_t i) {
       if (batch.threw[i] != 0) verdicts_[i] = verdict::unsettled;
+    });
     tally.count_scanned(verdicts_, batch.first_index);
     std::size_t left = 0;
-    std::size_t i = 0;
-    const auto look = [&](std::size_t last) {
-      for (; i < last; ++i) {
-        pending_[left] = i;
-        left += verdicts_[i] == verdict::unsettled ? 1U : 0U;
-      }
-    };
-    while (i + 8 <= batch.count()) {
-      // No other verdict has the first bit of a byte.
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, &verdicts_[i], sizeof eight);
-      if ((eight & 0x8080808080808080U) == 0) {
-        i += 8;
-      } else {
-        look(i + 8);
-      }
-    }
-    look(batch.count());
+    // No other verdict has the first bit of a byte.
+    for_marked(verdicts_, 0x8080808080808080U, [&](std::size_t i) {
+      pending_[left] = i;
+      left += verdicts_[i] == verdict::unsettled ? 1U : 0U;
+    });
     pending_.resize(left);
     decided_[static_cast<std::size_t>(Native::id)] += batch.count() - left;
   }

@@ -11,6 +11,7 @@
 #include "harness/core/stages/finding.hpp"
 #include "harness/core/stages/native_bits.hpp"
 #include "harness/core/stages/ordinary_scan.hpp"
+#include "reference/lanes/widening.hpp"
 
 namespace ulpgate {
 
@@ -126,13 +127,17 @@ class NativeStage {
   }
 
  private:
-  // A loop that the compiler turns into vectors only when it is told the number of steps.
   void widen(std::span<const Real> args) {
-    constexpr std::size_t step = 8;
-    std::size_t i = 0;
-    for (; i + step <= args.size(); i += step)
-      for (std::size_t j = 0; j < step; ++j) args_[i + j] = args[i + j];
-    for (; i < args.size(); ++i) args_[i] = args[i];
+    if constexpr (std::same_as<Real, float> && std::same_as<W, double>) {
+      widen_floats(args.data(), args_.data(), args.size());
+    } else {
+      // A loop that the compiler turns into vectors only when it is told the number of steps.
+      constexpr std::size_t step = 8;
+      std::size_t i = 0;
+      for (; i + step <= args.size(); i += step)
+        for (std::size_t j = 0; j < step; ++j) args_[i + j] = args[i + j];
+      for (; i < args.size(); ++i) args_[i] = args[i];
+    }
   }
 
   // Whether W has exponents that double has not, and results or errors may have them.
