@@ -13,6 +13,7 @@ SUFFIXES = ("pdf", "svg", "png")
 PAGE_INCHES, COLUMN_INCHES = 7.2, 3.5
 _width = {"inches": PAGE_INCHES}
 PNG_DOTS_PER_INCH = 200
+PADDING_INCHES = 0.03
 # Okabe and Ito's colours, told apart by colour-blind readers; yellow is left out, too pale on white.
 _COLOURS = (
     "#0072B2",
@@ -115,6 +116,10 @@ def render(figure, name, suffixes=SUFFIXES):
     """The bytes of the figure by each of `suffixes`; the figure is closed."""
     # The salt makes the ids inside an SVG fixed, and different from those of another figure on the same page.
     matplotlib.rcParams["svg.hashsalt"] = name
+    # Its layout and how far it reaches are the same in each format, which else would draw it once more to find them.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    box = figure.get_tightbbox(figure.canvas.get_renderer()).padded(PADDING_INCHES)
     files = {}
     for suffix in suffixes:
         buffer = io.BytesIO()
@@ -122,8 +127,7 @@ def render(figure, name, suffixes=SUFFIXES):
             buffer,
             format=suffix,
             dpi=PNG_DOTS_PER_INCH,
-            bbox_inches="tight",
-            pad_inches=0.03,
+            bbox_inches=box,
             metadata=_METADATA[suffix],
         )
         files[suffix] = buffer.getvalue()

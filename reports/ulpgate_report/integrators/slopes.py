@@ -1,6 +1,8 @@
 """Straight lines of the orders in theory through a panel of curves, each with its number at a place of its own."""
 import math
 
+import numpy
+
 # What a digit and a line of the numbers take, and how far they stay from curves, in inches.
 SIZE = 6.5
 _DIGIT, _HEIGHT, _GAP = 0.062, 0.085, 0.035
@@ -14,6 +16,11 @@ def anchor(found):
     return math.log10(dt), math.log10(error)
 
 
+def _is_near(points, place, reach):
+    """Whether one of `points`, rows of (x, y), lies within `reach` of the place, along each axis."""
+    return bool((numpy.abs(points - place) < reach).all(axis=1).any())
+
+
 class Panel:
     """A panel in inches: where the curves are, and what numbers stand there already."""
 
@@ -25,7 +32,7 @@ class Panel:
             inches[1] / (self._top - self._bottom),
         )
         self._inches = inches
-        self._curves, self._boxes = [], []
+        self._curves, self._boxes = numpy.empty((0, 2)), []
 
     def _at(self, x, y):
         return (x - self._left) * self._scale[0], (y - self._bottom) * self._scale[1]
@@ -42,9 +49,10 @@ class Panel:
     def keep_clear(self, points):
         """No number may stand on the curve through these points."""
         placed = [self._at(*point) for point in points]
-        self._curves += placed
+        curve = list(placed)
         for start, end in zip(placed, placed[1:]):
-            self._curves += self._along(start, end)
+            curve += self._along(start, end)
+        self._curves = numpy.vstack([self._curves, numpy.reshape(curve, (-1, 2))])
 
     def _line(self, found):
         """Both ends of the slope, from edge to edge of the panel, in inches."""
@@ -60,10 +68,7 @@ class Panel:
         inside = edge[0] < x < width - edge[0] and edge[1] < y < height - edge[1]
         return (
             inside
-            and not any(
-                abs(x - at) < half + _GAP and abs(y - up) < tall + _GAP
-                for at, up in self._curves
-            )
+            and not _is_near(self._curves, (x, y), edge)
             and not any(
                 abs(x - at) < half + other + _GAP and abs(y - up) < tall + its + _GAP
                 for (at, up), (other, its) in self._boxes
@@ -97,13 +102,8 @@ class Panel:
                 continue
             # Beside a line, a number must not seem to be that of the next.
             gap = 3 * _GAP if side else 0
-            crossed = sum(
-                any(
-                    abs(x - a) < size[0] + gap and abs(y - b) < size[1] + gap
-                    for a, b in line
-                )
-                for line in others
-            )
+            reach = size[0] + gap, size[1] + gap
+            crossed = sum(_is_near(line, (x, y), reach) for line in others)
             if not (side and crossed):
                 free.append((side, crossed, from_end, (x, y)))
         if not free:
@@ -115,9 +115,10 @@ class Panel:
     def draw(self, slopes):
         """Every slope that a number has a place on: where none is free, the line would be without a meaning."""
         lines = [self._along(*self._line(found)) for found in slopes]
+        arrays = [numpy.array(line) for line in lines]
         for index, (found, points) in enumerate(zip(slopes, lines)):
             text = f"{found.order:g}"
-            place = self._place(text, points, lines[:index] + lines[index + 1 :])
+            place = self._place(text, points, arrays[:index] + arrays[index + 1 :])
             if place is None:
                 continue
             ends = [self._back(*point) for point in (points[0], points[-1])]
