@@ -122,7 +122,10 @@ TEST(DoubleLanes, AnswerForEveryCountAlike) {
         EXPECT_EQ(some[count], -7) << "nothing is written behind the last";
         EXPECT_EQ(some_bounds[count], -7);
         for (std::size_t i = 0; i < count; ++i) {
-          EXPECT_EQ(std::bit_cast<std::uint64_t>(some[i]), std::bit_cast<std::uint64_t>(all[i])) << f.name;
+          // The sign of a NaN says nothing.
+          EXPECT_TRUE((std::isnan(some[i]) && std::isnan(all[i])) ||
+                      std::bit_cast<std::uint64_t>(some[i]) == std::bit_cast<std::uint64_t>(all[i]))
+              << f.name << " " << some[i] << " " << all[i];
           EXPECT_EQ(some_bounds[i], bounds[i]) << f.name;
         }
       }
