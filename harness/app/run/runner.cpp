@@ -160,9 +160,14 @@ class Exchange : public UnitExchange {
 
 class PlanUnits {
  public:
-  PlanUnits(const Plan& plan, ReferenceMode mode) : plan_(plan), mode_(mode) {
-    for (const auto& row : plan.rows())
-      hints_.push_back(std::make_unique<RowHint>(row.subject->info().parts.size()));
+  PlanUnits(const Plan& plan, const Shard& shard, ReferenceMode mode) : plan_(plan), mode_(mode) {
+    std::vector<std::vector<RowHint::Range>> ranges(plan.rows().size());
+    const ShardUnits units{plan.units(), shard.index, shard.count};
+    for (std::size_t i = 0; i < units.size(); ++i)
+      ranges[units[i].row].push_back({units[i].first, units[i].last});
+    for (std::size_t row = 0; row < plan.rows().size(); ++row) {
+      hints_.push_back(std::make_unique<RowHint>(plan.rows()[row].subject->info().parts.size(), ranges[row]));
+    }
   }
   [[nodiscard]] std::vector<Summary> evaluate(const WorkUnit& unit) const {
     const PlanRow& row = plan_.rows()[unit.row];
@@ -230,7 +235,7 @@ UnitSummaries run_units(const UnitJob& job, const Shard& shard, unsigned threads
 
 RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, ReferenceMode mode,
                    Checkpoint& checkpoint, Ranks* ranks) {
-  const PlanUnits units(plan, mode);
+  const PlanUnits units(plan, shard, mode);
   // Rows of one subject stand together.
   std::vector<CostModel::Row> costs;
   std::size_t group = 0;
@@ -255,7 +260,7 @@ RunResult run_plan(const Plan& plan, const Shard& shard, unsigned threads, Refer
 
 void help_plan(const Plan& plan, const Shard& shard, ReferenceMode mode, const RunIdentity& identity,
                Ranks& ranks) {
-  const PlanUnits units(plan, mode);
+  const PlanUnits units(plan, shard, mode);
   const InterruptGuard guard;
   ranks.help(identity, {plan.units(), shard.index, shard.count},
              [&](const WorkUnit& unit) { return units.evaluate(unit); });

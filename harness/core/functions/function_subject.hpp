@@ -125,18 +125,27 @@ class FunctionSubject final : public Subject {
   }
 
  private:
-  // Tells the hint of a row of which nothing is known the largest error of a few points all over the unit.
-  // Where a function is next to a constant all errors are tiny, and each would climb for being the maximum.
+  // Tells the hint of a row of which nothing is known the largest error of a few points all over the run.
+  // Where a function is next to a constant all errors are tiny, and each would climb for being the maximum;
+  // of a stratified row, which is sorted, that may be all of a unit.
   void preview(const StratumSource& source, std::uint64_t first, std::uint64_t last, RowHint& hint) const {
     constexpr std::uint64_t points = 32;
     if (RowTally<Real>(function_, hint).knows_maxima() || last - first < 8 * points) return;
-    // The unit meets these points again and counts them then, which goes for their conditions as well.
+    // The run's units meet these points again and count them then, which goes for their conditions as well.
+    const std::vector<RowHint::Range> unit = {{first, last}};
+    const std::vector<RowHint::Range>& ranges = hint.ranges.empty() ? unit : hint.ranges;
+    std::uint64_t count = 0;
+    for (const auto& range : ranges) count += range.last - range.first;
     const auto parts = static_cast<std::size_t>(function_.parts);
     RowHint found(parts);
     RowTally<Real> tally(function_, found);
     ScreenedJudging<Real> judging(function_);
+    auto range = ranges.begin();
+    std::uint64_t before = 0;  // samples of the ranges before this one
     for (std::uint64_t j = 0; j < points; ++j) {
-      const std::uint64_t k = first + (last - first) * (2 * j + 1) / (2 * points);
+      const std::uint64_t position = count * (2 * j + 1) / (2 * points);
+      for (; position - before >= range->last - range->first; ++range) before += range->last - range->first;
+      const std::uint64_t k = range->first + (position - before);
       run(source, k, k + 1, judging, tally);
     }
     static_cast<void>(tally.take());

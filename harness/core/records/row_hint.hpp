@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "harness/core/records/stage.hpp"
@@ -15,10 +17,18 @@ namespace ulpgate {
 // computed, never the row's record.
 class RowHint {
  public:
+  // Samples of the row, `last` not among them.
+  struct Range {
+    std::uint64_t first;
+    std::uint64_t last;
+  };
   std::vector<std::atomic<double>> error_over_condition;
   std::array<std::atomic<std::uint64_t>, stage_count> decided{};
+  // Those of all units of this run, done or to be done; empty where a unit is evaluated alone.
+  const std::vector<Range> ranges;
 
-  explicit RowHint(std::size_t parts) : error_over_condition(parts), max_error_(parts) {}
+  explicit RowHint(std::size_t parts, std::vector<Range> of_run = {})
+      : error_over_condition(parts), ranges(std::move(of_run)), max_error_(parts) {}
   [[nodiscard]] Maximum max_error(std::size_t part) const {
     const std::lock_guard lock(mutex_);
     return max_error_[part];
