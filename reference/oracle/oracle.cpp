@@ -202,6 +202,44 @@ void power_by_turns(mpc_ptr out, mpc_srcptr log_power, mpfr_srcptr re_w, int eig
   set_part(mpc_imagref(out));
 }
 
+// w log z with an absolute error of 2^-bits, but for the exponent of log z: of its imaginary part always, of
+// its real part below 2^64; beyond that a power is beyond MPFR's range, whatever the rest of it.
+class PowerLogarithm {
+ public:
+  // `least` more bits of both ln|z| and arg z in any case.
+  PowerLogarithm(mpc_srcptr z, mpc_srcptr w, long bits, long least)
+      : re_(exponent_of(mpc_realref(w))),
+        im_(exponent_of(mpc_imagref(w))),
+        of_log_(std::max({im_, std::min(re_, ordinary), least, 0L})),
+        of_arg_(std::max({re_, std::min(im_, ordinary), least, 0L})),
+        bits_(bits),
+        value_(bits + std::max({re_, im_, 0L}) + ordinary) {
+    MpfrValue log(bits + of_log_);
+    MpfrValue arg(bits + of_arg_);
+    mpfr_hypot(log, mpc_realref(z), mpc_imagref(z), nearest);
+    mpfr_log(log, log, nearest);
+    mpfr_atan2(arg, mpc_imagref(z), mpc_realref(z), nearest);
+    mpfr_fmms(mpc_realref(value()), mpc_realref(w), log, mpc_imagref(w), arg, nearest);
+    mpfr_fmma(mpc_imagref(value()), mpc_realref(w), arg, mpc_imagref(w), log, nearest);
+  }
+  [[nodiscard]] mpc_ptr value() { return value_; }
+  // Whether the real part is not known well enough, which then has cancelled.
+  [[nodiscard]] bool is_vague() {
+    const long lacking = std::max(re_ - of_log_, im_ - of_arg_);
+    // |log z| is below 2^64.
+    return lacking > 0 && exponent_of(mpc_realref(value())) <= std::max(lacking - bits_ + 80, ordinary);
+  }
+
+ private:
+  static constexpr long ordinary = 64;
+  long re_;
+  long im_;
+  long of_log_;
+  long of_arg_;
+  long bits_;
+  MpcValue value_;
+};
+
 // z^w = exp(w log z).  MPC's own power searches for exact results without end in sight where w is complex or
 // large; it serves where w is a small half integer.
 ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
@@ -217,25 +255,36 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
   const bool one_term = mpfr_zero_p(mpc_imagref(w)) || is_of_modulus_one(z);
   const auto eighths = one_term ? eighths_of_turn(z) : std::nullopt;
   const mpfr_prec_t precision = mpfr_get_prec(mpc_realref(out));
-  // Where the angle comes close to a multiple of pi/2 a part is small against the modulus and loses as many
-  // bits; they are added until they suffice.  No part is exactly zero here, but a limit must stand.
+  // Where the angle comes close to a multiple of pi/2 its sine or cosine loses as many bits; they are added
+  // until they suffice, for a part beyond MPFR's range as well, which is nothing but its sign.  Neither is
+  // exactly zero here, but a limit must stand.
   constexpr long most_guard_bits = 1L << 16U;
-  for (long guard = 160;;) {
-    MpcValue product(precision + size + guard);
-    mpc_log(product, z, rounding);
-    mpc_mul(product, product, w, rounding);
+  // Each of ln|z| and arg z has the bits that the angle asks of it, and of an ordinary modulus.
+  bool all_bits = false;
+  for (long guard = 112;;) {
+    PowerLogarithm log_power(z, w, precision + guard, all_bits ? size : 0);
+    if (log_power.is_vague()) {
+      all_bits = true;
+      continue;
+    }
     if (eighths) {
-      power_by_turns(out, product, mpc_realref(w), *eighths);
+      power_by_turns(out, log_power.value(), mpc_realref(w), *eighths);
       return not_known;
     }
-    mpc_exp(out, product, rounding);
-    mpfr_srcptr re = mpc_realref(out);
-    mpfr_srcptr im = mpc_imagref(out);
-    if (mpfr_regular_p(re) == 0 || mpfr_regular_p(im) == 0) return not_known;
-    const long lost = std::abs(exponent_of(re) - exponent_of(im));
+    MpfrValue sine(precision + 32);
+    MpfrValue cosine(precision + 32);
+    mpfr_sin_cos(sine, cosine, mpc_imagref(log_power.value()), nearest);
+    const long lost = -std::min(exponent_of(sine), exponent_of(cosine));
     // |log z| needs up to 12 bits before its point for binary64's exponents, 64 for any.
-    if (lost + 80 <= guard || guard >= most_guard_bits) return not_known;
-    guard = std::min(lost + 160, most_guard_bits);
+    if (lost + 80 > guard && guard < most_guard_bits) {
+      guard = std::min(lost + 160, most_guard_bits);
+      continue;
+    }
+    MpfrValue modulus(precision + 32);
+    mpfr_exp(modulus, mpc_realref(log_power.value()), nearest);
+    mpfr_mul(mpc_realref(out), modulus, cosine, nearest);
+    mpfr_mul(mpc_imagref(out), modulus, sine, nearest);
+    return not_known;
   }
 }
 

@@ -76,6 +76,34 @@ TEST(ComplexPowers, BelowTheNegativeAxisTurnTheOtherWay) {
   for (const double w : {0.3, -1.7, 0.5, 2.5}) expect_power({-2, -0.0}, {w, 0});
 }
 
+// Beyond MPFR's range signs are all that is left of the parts.  Next to the negative axis an even Re(w) turns
+// back to next to the real axis: the sine of the angle has lost hundreds of bits.
+TEST(ComplexPowers, BeyondTheRangeKeepTheirSigns) {
+  constexpr mpfr_prec_t enough = 6000;
+  int close = 0;
+  for (const int exponent : {200, 400, 752, 1000}) {
+    for (const int apart : {-1100, -700, -300}) {
+      for (const double growth : {0x1.3p-640, -0x1.3p-640}) {
+        const Point z{-0x1.5ae9cc006af72p+100, std::ldexp(0x1.1cd6bbfb6e49p+0, std::max(apart + 100, -1000))};
+        const Point w{std::ldexp(0x1.4ac7a5741bab3p+0, exponent), growth};
+        const auto got = power(z, w);
+        MpcValue log_power(enough), by(64);
+        mpc_set_d_d(log_power, z.re, z.im, MPC_RNDNN);
+        mpc_set_d_d(by, w.re, w.im, MPC_RNDNN);
+        mpc_log(log_power, log_power, MPC_RNDNN);
+        mpc_mul(log_power, log_power, by, MPC_RNDNN);
+        MpfrValue sine(64), cosine(64);
+        mpfr_sin_cos(sine, cosine, mpc_imagref(static_cast<mpc_ptr>(log_power)), nearest);
+        close += mpfr_get_exp(sine) < -120 ? 1 : 0;
+        EXPECT_FALSE(mpfr_regular_p(got[0].get())) << exponent;
+        EXPECT_EQ(mpfr_signbit(got[0].get()), mpfr_signbit(cosine)) << exponent << ' ' << apart;
+        EXPECT_EQ(mpfr_signbit(got[1].get()), mpfr_signbit(sine)) << exponent << ' ' << apart;
+      }
+    }
+  }
+  EXPECT_GE(close, 6);
+}
+
 // Exact powers of exponents that large would have more digits than there is memory: none may be looked for.
 TEST(ComplexPowers, OfHugeRealExponentsEnd) {
   for (const double w : {0x1p60, -0x1p60, 0x1p40 + 0.5, 0x1.8p30}) expect_power({1.5, 0.3}, {w, 0});

@@ -44,6 +44,9 @@ namespace detail {
 void philox_first_words(std::array<std::uint64_t, 2> key, std::uint64_t k, std::uint64_t argument,
                         std::span<std::uint64_t> words);
 
+// The double nearest to 200 f - 100, f = 0.w in base 2^64, of each word w.
+void on_minus_100_100(std::span<const std::uint64_t> words, double* out);
+
 }  // namespace detail
 
 // One stream per (seed, function, stratum).  Philox4x64-10: Salmon et al., "Parallel random numbers: as easy

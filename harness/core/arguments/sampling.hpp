@@ -22,6 +22,12 @@ namespace detail {
 template <NativeReal Real>
 [[nodiscard]] Real rounded_once(__int128 v) {
   if constexpr (std::same_as<Real, float>) {
+    // Rounded to odd first, 56 bits with all that the last rounding asks for; the conversion of all 128 takes
+    // four times as long.
+    const auto odd = static_cast<std::int64_t>(v >> 16U) |
+                     static_cast<std::int64_t>((static_cast<std::uint64_t>(v) & 0xffffU) != 0);
+    constexpr std::int64_t enough = std::int64_t{1} << 28U;
+    if (odd >= enough || odd < -enough) return static_cast<Real>(odd) * Real(0x1p16);
     return static_cast<Real>(v);
   } else {
     const auto high = static_cast<std::int64_t>(v >> 32U);
@@ -35,12 +41,9 @@ template <NativeReal Real>
 template <RealType Real>
 Real on_minus_100_100(std::span<const std::uint64_t> words) {
   if constexpr (std::same_as<Real, double>) {
-    // rounded_once of the same integer, in pieces of 32 bits.
-    const std::uint64_t low = 200 * (words[0] & 0xffffffffU);
-    const auto high =
-        static_cast<std::int64_t>(200 * (words[0] >> 32U) + (low >> 32U)) - (std::int64_t{100} << 32U);
-    return (static_cast<double>(high) * 0x1p32 + static_cast<double>(static_cast<std::uint32_t>(low))) *
-           0x1p-64;
+    Real value;
+    on_minus_100_100(words.first(1), &value);
+    return value;
   } else if constexpr (NativeReal<Real>) {
     const __int128 v =
         static_cast<__int128>(200) * static_cast<__int128>(words[0]) - (static_cast<__int128>(100) << 64U);
@@ -74,6 +77,36 @@ inline void into_cell(std::span<std::uint64_t> words, std::uint64_t cell, std::u
     if (i + 1 < words.size()) remainder = dividend - quotient * cells;
   }
 }
+
+// The same of many single words, by a reciprocal: Moeller and Granlund, "Improved division by invariant
+// integers", IEEE Trans. Comput. 60 (2011), algorithm 4.
+class Cells {
+ public:
+  explicit Cells(std::uint64_t cells)
+      : shift_(static_cast<unsigned>(std::countl_zero(cells))),
+        divisor_(cells << shift_),
+        reciprocal_(static_cast<std::uint64_t>(~static_cast<unsigned __int128>(0) / divisor_)) {}
+
+  [[nodiscard]] std::uint64_t into(std::uint64_t word, std::uint64_t cell) const {
+    using Wide = unsigned __int128;
+    const Wide u = ((static_cast<Wide>(cell) << 64U) | word) << shift_;
+    const auto high = static_cast<std::uint64_t>(u >> 64U);
+    const auto low = static_cast<std::uint64_t>(u);
+    const Wide q = static_cast<Wide>(reciprocal_) * high + u;
+    std::uint64_t quotient = static_cast<std::uint64_t>(q >> 64U) + 1;
+    std::uint64_t remainder = low - quotient * divisor_;
+    if (remainder > static_cast<std::uint64_t>(q)) {
+      --quotient;
+      remainder += divisor_;
+    }
+    return quotient + (remainder >= divisor_ ? 1U : 0U);
+  }
+
+ private:
+  unsigned shift_;
+  std::uint64_t divisor_;
+  std::uint64_t reciprocal_;
+};
 
 // A fixed permutation of [0, n) for every argument: argument 0 walks the cells in order, the others by a
 // stride near the golden section, so that pairs of cells fill the square evenly.
@@ -177,7 +210,10 @@ template <RealType Real>
 class Arguments {
  public:
   Arguments(const FunctionInfo& f, const StratumSource& source)
-      : function_(f), source_(source), stream_(source.seed, f.name, name_of(source.stratum)) {
+      : function_(f),
+        source_(source),
+        stream_(source.seed, f.name, name_of(source.stratum)),
+        cells_(std::max<std::uint64_t>(source.count, 1)) {
     for (std::size_t i = 0; i < strides_.size(); ++i) strides_[i] = detail::cell_stride(i, source.count);
   }
 
@@ -228,23 +264,40 @@ class Arguments {
   // As on_interval, for many points.
   void draw_all(std::uint64_t k, std::size_t count, Real* out) const {
     const auto arity = static_cast<std::size_t>(function_.arity);
-    std::array<std::uint64_t, 64> words;
+    std::array<std::uint64_t, 256> words;
     for (std::size_t first = 0; first < count; first += words.size()) {
       const std::span some = std::span(words).first(std::min(words.size(), count - first));
       for (std::size_t argument = 0; argument < arity; ++argument) {
         stream_.first_words(k + first, argument, some);
-        if (source_.stratum == Stratum::stratified) {
-          for (std::size_t i = 0; i < some.size(); ++i) {
-            const std::uint64_t cell =
-                detail::permuted_cell(k + first + i, strides_[argument], source_.count);
-            detail::into_cell(some.subspan(i, 1), cell, source_.count);
-          }
-        }
+        if (source_.stratum == Stratum::stratified) into_cells(k + first, argument, some);
         Real* to = out + first * arity + argument;
-        for (std::size_t i = 0; i < some.size(); ++i)
-          to[i * arity] = detail::on_minus_100_100<Real>(some.subspan(i, 1));
+        on_minus_100_100(some, to, arity);
         detail::map_all_to_domain(function_.domain[argument], to, some.size(), arity);
       }
+    }
+  }
+
+  // Of the points from k on.
+  void into_cells(std::uint64_t k, std::size_t argument, std::span<std::uint64_t> words) const {
+    const std::uint64_t stride = strides_[argument];
+    std::uint64_t cell = detail::permuted_cell(k, stride, source_.count);
+    for (std::uint64_t& word : words) {
+      word = cells_.into(word, cell);
+      // The next point's, without a division.
+      const std::uint64_t left = source_.count - cell;
+      cell = stride < left ? cell + stride : stride - left;
+    }
+  }
+
+  static void on_minus_100_100(std::span<const std::uint64_t> words, Real* out, std::size_t step) {
+    if constexpr (std::same_as<Real, double>) {
+      if (step == 1) return detail::on_minus_100_100(words, out);
+      std::array<double, 256> values;
+      detail::on_minus_100_100(words, values.data());
+      for (std::size_t i = 0; i < words.size(); ++i) out[i * step] = values[i];
+    } else {
+      for (std::size_t i = 0; i < words.size(); ++i)
+        out[i * step] = detail::on_minus_100_100<Real>(words.subspan(i, 1));
     }
   }
 
@@ -325,6 +378,7 @@ class Arguments {
   FunctionInfo function_;
   StratumSource source_;
   RandomStream stream_;
+  detail::Cells cells_;                             // of the stratified points, one each
   std::array<std::uint64_t, max_arity> strides_{};  // of the cells, by argument
 };
 

@@ -125,7 +125,26 @@ TEST(RandomStream, FirstWordsOfManyPointsAreThoseOfEach) {
         stream.fill(first + i, argument, word);
         EXPECT_EQ(words[i], word[0]);
       }
+      // Of every number of points: vectors, numbers beside them, and a rest.
+      for (std::size_t count = 1; count < 30; ++count) {
+        std::vector<std::uint64_t> some(count);
+        stream.first_words(first, argument, some);
+        EXPECT_TRUE(std::equal(some.begin(), some.end(), words.begin())) << count;
+      }
     }
+  }
+}
+
+TEST(Arguments, AWordIsPutIntoItsCellWithoutADivision) {
+  SplitMix64 words(5);
+  for (int i = 0; i < 20000; ++i) {
+    const std::uint64_t any = words.word() >> (i % 64);
+    const std::uint64_t cells = i % 7 == 0 ? std::uint64_t{1} << (i % 64) : std::max<std::uint64_t>(any, 1);
+    const std::uint64_t cell = i % 5 == 0 ? cells - 1 : words.word() % cells;
+    const std::uint64_t word = i % 11 == 0 ? ~std::uint64_t{0} : words.word();
+    std::uint64_t want[1] = {word};
+    detail::into_cell(want, cell, cells);
+    ASSERT_EQ(detail::Cells(cells).into(word, cell), want[0]) << cells << ' ' << cell << ' ' << word;
   }
 }
 
@@ -153,10 +172,10 @@ TEST(Arguments, OfManyPointsAreThoseOfEach) {
 }
 
 // The value depends on the words alone: 200 w - 100 rounded once.
-TEST(Arguments, DoublesAreRoundedOnce) {
+TEST(Arguments, NativeNumbersAreRoundedOnce) {
   SplitMix64 words(3);
   MpfrValue exact(160);
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < 30000; ++i) {
     const std::uint64_t word[1] = {i % 3 == 0 ? 0x8000000000000000U + (words.word() >> (i % 60 + 1))
                                               : words.word()};
     mpfr_set_ui(exact, word[0], MPFR_RNDN);  // of 64 bits where ulpgate runs
@@ -164,6 +183,13 @@ TEST(Arguments, DoublesAreRoundedOnce) {
     mpfr_div_2ui(exact, exact, 64, MPFR_RNDN);
     mpfr_sub_ui(exact, exact, 100, MPFR_RNDN);
     EXPECT_EQ(detail::on_minus_100_100<double>(word), mpfr_get_d(exact, MPFR_RNDN));
+    EXPECT_EQ(detail::on_minus_100_100<float>(word), mpfr_get_flt(exact, MPFR_RNDN));
+    EXPECT_EQ(detail::on_minus_100_100<long double>(word), mpfr_get_ld(exact, MPFR_RNDN));
+    std::array<double, 19> many{};
+    std::array<std::uint64_t, 19> same{};
+    same.fill(word[0]);
+    detail::on_minus_100_100(same, many.data());
+    for (const double x : many) EXPECT_EQ(x, mpfr_get_d(exact, MPFR_RNDN));
   }
 }
 

@@ -73,6 +73,12 @@ class PointJudge {
 
   [[nodiscard]] MpfrValue& exact(std::size_t part) { return exact_[part]; }
   [[nodiscard]] Exactness exactness(std::size_t part) const { return exactness_[part]; }
+  // Whether the exact value is a number beyond MPFR's own range, which it is at any precision: a zero or an
+  // infinity that is none.  Of a special function a zero may be one that needs more bits.
+  [[nodiscard]] bool is_beyond_mpfr(std::size_t part) const {
+    return mpfr_regular_p(exact_[part].get()) == 0 &&
+           (is_rounded(exactness_[part]) || function_.function_class == FunctionClass::complex);
+  }
   [[nodiscard]] long double value(std::size_t part) const { return mpfr_get_ld(exact_[part], MPFR_RNDN); }
   [[nodiscard]] const MpfrValue& got(const Batch<Real>& batch, std::size_t i, std::size_t part) {
     to_mpfr(got_.get(), batch.result_of(i, part));
@@ -85,6 +91,15 @@ class PointJudge {
     if (judgement.outcome == Outcome::zero_sign && function_.function_class == FunctionClass::special)
       return {};
     return judgement;
+  }
+
+  // Of a result that is equal to a rounded reference: it is wrong by less than the reference can say, but
+  // wrong.  So is a zero where the exact value has left even MPFR's range.
+  [[nodiscard]] static Judgement not_exact(Judgement j, mpfr_srcptr got, mpfr_srcptr exact,
+                                           Exactness exactness) {
+    if (is_rounded(exactness) && mpfr_number_p(got) != 0 && mpfr_equal_p(got, exact) != 0)
+      j.error.value = smallest_error;
+    return j;
   }
 
  private:
@@ -125,12 +140,8 @@ class FullJudging {
     mpfr_srcptr exact = point_.exact(part);
     const Exactness exactness = point_.exactness(part);
     const bool leans = lean_to_exact<Real>(beside_, exact, exactness);
-    Judgement j = point_.judge(got, leans ? static_cast<mpfr_srcptr>(beside_) : exact);
-    // A result equal to a rounded reference is wrong by less than the reference can say, but wrong.  So is a
-    // zero where the exact value has left even MPFR's range.
-    if (is_rounded(exactness) && mpfr_number_p(got) != 0 && mpfr_equal_p(got, exact) != 0)
-      j.error.value = smallest_error;
-    return j;
+    const Judgement j = point_.judge(got, leans ? static_cast<mpfr_srcptr>(beside_) : exact);
+    return point_.not_exact(j, got, exact, exactness);
   }
   [[nodiscard]] long double value(std::size_t part) const { return threw_ != 0 ? 0 : point_.value(part); }
 

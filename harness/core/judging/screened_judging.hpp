@@ -308,7 +308,10 @@ class ScreenedJudging {
       finding = finding_of(stage_.judge(got, value));
       return true;
     }
-    // An inexact zero or infinity has left even MPFR's range.
+    if (stage_.is_beyond_mpfr(part)) {
+      finding = finding_of(stage_.not_exact(stage_.judge(got, value), got, value, exactness));
+      return true;
+    }
     if (!mpfr_regular_p(value)) return false;
     const bool equal = is_rounded(exactness) && mpfr_equal_p(got, value) != 0;
     const bool leans = lean_to_exact<Real>(beside_, value, exactness);
