@@ -202,6 +202,28 @@ void power_by_turns(mpc_ptr out, mpc_srcptr log_power, mpfr_srcptr re_w, int eig
   set_part(mpc_imagref(out));
 }
 
+// ln|z|, with all of its bits next to |z| = 1 as well: there of |z|^2 - 1 = (l - 1)(l + 1) + s^2, l the
+// larger part.
+void log_modulus(mpfr_ptr out, mpc_srcptr z) {
+  mpfr_srcptr l = mpc_realref(z);
+  mpfr_srcptr s = mpc_imagref(z);
+  if (mpfr_cmpabs(l, s) < 0) std::swap(l, s);
+  if (exponent_of(l) == 0 || exponent_of(l) == 1) {
+    MpfrValue size(mpfr_get_prec(l)), below(mpfr_get_prec(l) + 2), above(mpfr_get_prec(l) + 2);
+    mpfr_abs(size, l, nearest);
+    mpfr_sub_ui(below, size, 1, nearest);
+    mpfr_add_ui(above, size, 1, nearest);
+    mpfr_fmma(out, below, above, s, s, nearest);
+    if (mpfr_zero_p(out) || exponent_of(out) <= -1) {
+      mpfr_log1p(out, out, nearest);
+      mpfr_div_2ui(out, out, 1, nearest);
+      return;
+    }
+  }
+  mpfr_hypot(out, mpc_realref(z), mpc_imagref(z), nearest);
+  mpfr_log(out, out, nearest);
+}
+
 // w log z with an absolute error of 2^-bits, but for the exponent of log z: of its imaginary part always, of
 // its real part below 2^64; beyond that a power is beyond MPFR's range, whatever the rest of it.
 class PowerLogarithm {
@@ -216,8 +238,7 @@ class PowerLogarithm {
         value_(bits + std::max({re_, im_, 0L}) + ordinary) {
     MpfrValue log(bits + of_log_);
     MpfrValue arg(bits + of_arg_);
-    mpfr_hypot(log, mpc_realref(z), mpc_imagref(z), nearest);
-    mpfr_log(log, log, nearest);
+    log_modulus(log, z);
     mpfr_atan2(arg, mpc_imagref(z), mpc_realref(z), nearest);
     mpfr_fmms(mpc_realref(value()), mpc_realref(w), log, mpc_imagref(w), arg, nearest);
     mpfr_fmma(mpc_imagref(value()), mpc_realref(w), arg, mpc_imagref(w), log, nearest);

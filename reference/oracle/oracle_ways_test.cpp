@@ -104,6 +104,18 @@ TEST(ComplexPowers, BeyondTheRangeKeepTheirSigns) {
   EXPECT_GE(close, 6);
 }
 
+// ln|z| of (2^-149, -1) is 2^-299.
+TEST(ComplexPowers, NextToTheUnitCircleHaveAnAngle) {
+  const auto far = power({0x1p-149, -1}, {0, 0x1p127});
+  EXPECT_GT(mpfr_sgn(far[0].get()), 0);
+  EXPECT_TRUE(mpfr_inf_p(far[0].get()));
+  EXPECT_GT(mpfr_sgn(far[1].get()), 0);
+  EXPECT_TRUE(mpfr_inf_p(far[1].get()));
+  for (const Point z :
+       {Point{1, 0x1p-200}, {0x1.fffffffffffffp-1, 0x1p-27}, {0.6, 0.8}, {-0.6, 0x1.999999999999ap-1}})
+    for (const Point w : {Point{0.5, 3}, {1, 0x1p60}, {-2.5, -0x1p-30}}) expect_power(z, w);
+}
+
 // Exact powers of exponents that large would have more digits than there is memory: none may be looked for.
 TEST(ComplexPowers, OfHugeRealExponentsEnd) {
   for (const double w : {0x1p60, -0x1p60, 0x1p40 + 0.5, 0x1.8p30}) expect_power({1.5, 0.3}, {w, 0});
