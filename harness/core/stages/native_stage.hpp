@@ -21,7 +21,10 @@ class NativeStage {
   static constexpr Stage id = S;
 
   NativeStage(FunctionId f, BoundedFunction<W> function)
-      : id_(f), parts_(static_cast<std::size_t>(info_of(f).parts)), function_(function) {}
+      : id_(f),
+        parts_(static_cast<std::size_t>(info_of(f).parts)),
+        unsigned_zeros_(info_of(f).function_class == FunctionClass::special),
+        function_(function) {}
   [[nodiscard]] bool exists() const { return function_ != nullptr; }
 
   // Evaluates the points of `args`, count * arity values.
@@ -71,9 +74,10 @@ class NativeStage {
     const NumberBits got_bits = bits_of(got);
     const double bound = bounds_[i * parts_ + part];
     if (bound >= 0 && (got == 0 || !std::isfinite(got))) {
-      // A zero without error.
+      // A zero without error; the series of a special function define a value, not the sign of its zeros.
       finding = finding_of({});
-      if (bound == 0 && got == 0 && value == 0 && std::signbit(got) == signbit_of(value)) return true;
+      if (bound == 0 && got == 0 && value == 0 && (unsigned_zeros_ || std::signbit(got) == signbit_of(value)))
+        return true;
       return find_special(args, bits, value, bound, got, finding);
     }
     const int grid = gradual ? std::max(bits.exponent, least_grid) : bits.exponent;
@@ -248,6 +252,7 @@ class NativeStage {
 
   FunctionId id_;
   std::size_t parts_;
+  bool unsigned_zeros_;
   BoundedFunction<W> function_;
   std::vector<W> args_;
   std::vector<W> results_;
