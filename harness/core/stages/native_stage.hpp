@@ -198,6 +198,10 @@ class NativeStage {
 
   [[nodiscard]] static bool signbit_of(W value) { return std::signbit(static_cast<double>(value)); }
 
+  [[nodiscard]] Finding zero_of_other_sign() const {
+    return finding_of(unsigned_zeros_ ? Judgement{} : Judgement{Outcome::zero_sign, {}, 0, false});
+  }
+
   // Results of 0, infinity and NaN: the two agree, or the exact value lies beyond what Real has, for float up
   // to the last rounding.  Where they differ, and closer to the ends, the stage has no say.
   [[nodiscard]] bool find_special(const Real* args, const NumberBits& bits, W value, double bound, Real got,
@@ -233,7 +237,7 @@ class NativeStage {
       const double slack = error * (bound * power_of_two(1 - significand_bits<W>) + 0x1p-48);
       finding = {Outcome::finite, error - slack, error + slack, 0, true, true};
       if (!(finding.greatest < 0.5)) return false;
-      if (other_sign) finding = finding_of({Outcome::zero_sign, {}, 0, false});
+      if (other_sign) finding = zero_of_other_sign();
       return true;
     }
     // A zero of W may be an exact one.
@@ -242,7 +246,7 @@ class NativeStage {
     const bool known_size = bits.normal || std::same_as<W, DoubleDouble>;
     const double greatest = power_of_two(std::max(size, known_size ? -900 : -700) + 1);
     finding = {Outcome::finite, smallest_error, greatest, 0, true, true};
-    if (other_sign) finding = finding_of({Outcome::zero_sign, {}, 0, false});
+    if (other_sign) finding = zero_of_other_sign();
     return true;
   }
 
