@@ -261,10 +261,11 @@ class Arguments {
   }
 
  private:
+  static constexpr std::size_t drawn_at_once = 256;
   // As on_interval, for many points.
   void draw_all(std::uint64_t k, std::size_t count, Real* out) const {
     const auto arity = static_cast<std::size_t>(function_.arity);
-    std::array<std::uint64_t, 256> words;
+    std::array<std::uint64_t, drawn_at_once> words;
     for (std::size_t first = 0; first < count; first += words.size()) {
       const std::span some = std::span(words).first(std::min(words.size(), count - first));
       for (std::size_t argument = 0; argument < arity; ++argument) {
@@ -289,10 +290,11 @@ class Arguments {
     }
   }
 
+  // At most drawn_at_once of them, `step` apart.
   static void on_minus_100_100(std::span<const std::uint64_t> words, Real* out, std::size_t step) {
     if constexpr (std::same_as<Real, double>) {
       if (step == 1) return detail::on_minus_100_100(words, out);
-      std::array<double, 256> values;
+      std::array<double, drawn_at_once> values;
       detail::on_minus_100_100(words, values.data());
       for (std::size_t i = 0; i < words.size(); ++i) out[i * step] = values[i];
     } else {
