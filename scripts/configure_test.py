@@ -85,6 +85,7 @@ def test_a_program_of_functions_alone_compiles_nothing_of_scenes(tmp_path):
     assert "function_subjects_double" in files
     for word in ("dem", "stepper", "order", "scene", "stress", "kernel_subjects"):
         assert word not in files.replace(str(tmp_path), "").replace(str(ROOT), "")
+
     # What both builds compile they compile alike: the second goes on from the first.
     # A source may be another target's as well.
     def object_of(c):
