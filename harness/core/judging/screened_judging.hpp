@@ -2,65 +2,31 @@
 // next, at the end to the full reference, and a fixed share is always checked against it.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
 
-#include "harness/core/judging/judging.hpp"
+#include "harness/core/judging/mpfr_stage.hpp"
+#include "harness/core/judging/screen_stages.hpp"
 #include "harness/core/stages/native_stage.hpp"
 #include "harness/core/stages/triple_stage.hpp"
-#include "reference/double_double/double_double_functions.hpp"
 #include "reference/text/text.hpp"
 
 namespace ulpgate {
-
-// The stages before the full reference; tests plant wrong ones.
-struct ScreenStages {
-  BoundedFunction<double> binary64 = nullptr;
-  BoundedFunction<long double> x87_extended = nullptr;
-  BoundedFunction<DoubleDouble> double_double = nullptr;
-#ifdef ULPGATE_HAVE_FLOAT128
-  BoundedFunction<Binary128> binary128 = nullptr;
-#endif
-  TripleDoubleFunction triple_double = nullptr;
-  ExactFunction mpfr = exact_value;
-};
-
-// The stages of f: functions of native types where they have trusted bounds.
-[[nodiscard]] inline ScreenStages screen_stages(const FunctionInfo& f) {
-  ScreenStages stages;
-  stages.double_double = double_double_function(f.id);
-  if (f.function_class != FunctionClass::real) {
-    if constexpr (std::numeric_limits<long double>::digits == 64)
-      stages.x87_extended = extended_function<long double>(f.id);
-#ifdef ULPGATE_HAVE_FLOAT128
-    stages.binary128 = extended_function<Binary128>(f.id);
-#endif
-    return stages;
-  }
-  stages.binary64 = bounded_function<double>(f.id);
-  if constexpr (std::numeric_limits<long double>::digits == 64)
-    stages.x87_extended = bounded_function<long double>(f.id);
-#ifdef ULPGATE_HAVE_FLOAT128
-  stages.binary128 = bounded_function<Binary128>(f.id);
-#endif
-  stages.triple_double = triple_double_function(f.id);
-  return stages;
-}
 
 // One object per unit of work.
 template <RealType Real>
 class ScreenedJudging {
  public:
-  // The MPFR stage is within one ulp of its own precision of the exact value (oracle.hpp).
-  static constexpr long stage_bits = std::numeric_limits<Real>::digits + 32;
   static constexpr std::uint64_t check_stride = 1024;
   // Of all floats: 2^18 of them.
   static constexpr std::uint64_t exhaustive_check_stride = 16 * check_stride;
-  // Of the checked samples most go to the full reference at once, these through all stages, so that those
-  // which are rarely reached are held to their bounds as well.
+  // Of the checked samples most are held against triple-double, where there is one, or else go to the full
+  // reference at once.  These go through all stages and to the full reference, so that triple-double and what
+  // is rarely reached are held to their bounds as well.
   static constexpr std::uint64_t deep_checks = 16;
   static constexpr std::uint64_t deep_check_stride = deep_checks * check_stride;
 
@@ -70,7 +36,8 @@ class ScreenedJudging {
   ScreenedJudging(const FunctionInfo& f, const ScreenStages& stages, std::uint64_t stride = check_stride)
       : parts_(static_cast<std::size_t>(f.parts)),
         natives_(native_stages(f.id, stages)),
-        stage_(f, stage_bits, stages.mpfr),
+        checkers_(checking_stages(f.id, stages)),
+        mpfr_(f, stages.mpfr),
         full_(f),
         stride_(stride) {}
 
@@ -81,6 +48,7 @@ class ScreenedJudging {
     pending_.resize(batch.count());
     if (!may_scan(batch)) std::iota(pending_.begin(), pending_.end(), std::size_t{0});
     std::apply([&](auto&... stages) { (judge_natively(stages, batch, tally), ...); }, natives_);
+    std::apply([&](auto&... checkers) { (check_by(checkers, batch, tally), ...); }, checkers_);
     // What the full reference finds spares the samples behind it from being a maximum.
     for (const std::size_t i : pending_) {
       if (!judge_by_mpfr(batch, i, tally)) judge_in_full(batch, i, tally);
@@ -153,11 +121,22 @@ class ScreenedJudging {
       return std::tuple_cat(double_double_stage(f, s), binary128_stage(f, beyond_double(f, s)));
 #ifdef ULPGATE_HAVE_FLOAT128
     } else if constexpr (Float128Backed<Real>) {
-      return std::tuple(TripleStage(f, s.triple_double));
+      return std::tuple(TripleStage<Real>(f, s.triple_double));
 #endif
     } else {
       return std::tuple();
     }
+  }
+
+  // Of narrower types than binary128 an independent stage with 48 bits more than double-double has, at a
+  // hundredth of the full reference's cost.
+  static auto checking_stages([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
+#ifdef ULPGATE_HAVE_FLOAT128
+    if constexpr (NativeReal<Real>)
+      return std::tuple(TripleStage<Real>(f, s.triple_double));
+    else
+#endif
+      return std::tuple();
   }
 
   [[nodiscard]] bool is_checked(const Batch<Real>& batch, std::size_t i) const {
@@ -166,6 +145,11 @@ class ScreenedJudging {
 
   [[nodiscard]] bool is_checked_by_all(const Batch<Real>& batch, std::size_t i) const {
     return (batch.first_index + i) % (deep_checks * stride_) == 0;
+  }
+
+  // The first sample of the batch whose index is a multiple of `stride`, or one behind the batch.
+  [[nodiscard]] static std::size_t first_multiple(const Batch<Real>& batch, std::uint64_t stride) {
+    return (stride - batch.first_index % stride) % stride;
   }
 
   // Whether a whole batch is scanned first, which leaves in pending_ what is left over.
@@ -262,8 +246,7 @@ class ScreenedJudging {
     scan_ordinary(
         native.scan_input(batch.args, batch.results, batch.first_index, tally.scan_limits(batch.first_index)),
         verdicts_.data());
-    const std::uint64_t past_check = batch.first_index % stride_;
-    for (std::size_t i = past_check == 0 ? 0 : stride_ - past_check; i < batch.count(); i += stride_)
+    for (std::size_t i = first_multiple(batch, stride_); i < batch.count(); i += stride_)
       verdicts_[i] = verdict::unsettled;
     // What is no value was scanned like one.
     for_marked(batch.threw, ~std::uint64_t{0}, [&](std::size_t i) {
@@ -280,15 +263,53 @@ class ScreenedJudging {
     decided_[static_cast<std::size_t>(Native::id)] += batch.count() - left;
   }
 
+  // Holds what a stage found of the samples that were spared further ones against the checker; what that
+  // knows nothing of, and what may be a maximum, is left to the full reference.  Has the checker checked by
+  // the full reference where all stages are.
+  template <class Checker>
+  void check_by(Checker& checker, const Batch<Real>& batch, RowTally<Real>& tally) {
+    if (!checker.exists()) return;
+    looked_at_ = spared_;
+    const std::uint64_t deep_stride = deep_checks * stride_;
+    for (std::size_t i = first_multiple(batch, deep_stride); i < batch.count(); i += deep_stride)
+      looked_at_.push_back(i);
+    if (looked_at_.empty()) return;
+    gathered_.clear();
+    for (const std::size_t i : looked_at_)
+      gathered_.insert(gathered_.end(), batch.args_of(i), batch.args_of(i) + batch.function.arity);
+    checker.load(gathered_, looked_at_.size());
+    spared_.clear();
+    for (std::size_t n = 0; n < looked_at_.size(); ++n) {
+      const std::size_t i = looked_at_[n];
+      std::array<Finding, max_parts> findings;
+      std::array<long double, max_parts> values{};
+      const bool is_found = find_parts(checker, n, batch, i, findings, values);
+      if (is_checked_by_all(batch, i)) {
+        if (is_found) checks_.push_back({i, Checker::id, findings});
+        continue;
+      }
+      if (is_found)
+        hold_checks(batch, i, name_of(Checker::id),
+                    [&](const Finding& f, std::size_t part) { return f.agrees_with(findings[part]); });
+      const auto held = std::ranges::find(checks_, i, &Check::i);
+      if (is_found && tally.settle({held->findings.data(), parts_}, batch.first_index + i, batch.args_of(i),
+                                   {values.data(), parts_})) {
+        ++decided_[static_cast<std::size_t>(held->stage)];
+      } else {
+        spared_.push_back(i);
+      }
+    }
+  }
+
   // True where the sample is done with.
   bool judge_by_mpfr(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
     std::array<Finding, max_parts> findings;
     std::array<long double, max_parts> values{};
     if (batch.threw[i] != 0) return false;
-    stage_.load(batch, i);
+    mpfr_.load(batch, i);
     for (std::size_t part = 0; part < parts_; ++part) {
-      values[part] = stage_.value(part);
-      if (!find(stage_.got(batch, i, part), part, findings[part])) return false;
+      values[part] = mpfr_.value(part);
+      if (!mpfr_.find(batch, i, part, findings[part])) return false;
     }
     if (is_checked(batch, i)) {
       checks_.push_back({i, Stage::mpfr, findings});
@@ -299,70 +320,30 @@ class ScreenedJudging {
     return true;
   }
 
-  // The error in ULP is monotone on either side of the result: the ends of the interval around the stage's
-  // value bound it.
-  bool find(mpfr_srcptr got, std::size_t part, Finding& finding) {
-    mpfr_ptr value = stage_.exact(part);
-    const Exactness exactness = stage_.exactness(part);
-    if (exactness == Exactness::exact || mpfr_nan_p(value)) {
-      finding = finding_of(stage_.judge(got, value));
-      return true;
-    }
-    if (stage_.is_beyond_mpfr(part)) {
-      finding = finding_of(stage_.not_exact(stage_.judge(got, value), got, value, exactness));
-      return true;
-    }
-    if (!mpfr_regular_p(value)) return false;
-    const bool equal = is_rounded(exactness) && mpfr_equal_p(got, value) != 0;
-    const bool leans = lean_to_exact<Real>(beside_, value, exactness);
-    mpfr_set_prec(upper_, mpfr_get_prec(value));
-    mpfr_set(upper_, value, MPFR_RNDN);
-    if (exactness != Exactness::rounded_up) mpfr_nextabove(upper_);
-    if (exactness != Exactness::rounded_down) mpfr_nextbelow(value);
-    mpfr_srcptr low = leans && exactness == Exactness::rounded_down ? beside_.get() : value;
-    mpfr_srcptr high = leans && exactness == Exactness::rounded_up ? beside_.get() : upper_.get();
-    const Judgement a = stage_.judge(got, low);
-    const Judgement b = stage_.judge(got, high);
-    if (a.outcome != b.outcome) return false;
-    finding = finding_of(a);
-    if (a.outcome != Outcome::finite) return true;
-    if (a.correctly_rounded != b.correctly_rounded) return false;
-    // Within the interval the error may be anything down to an exact zero, unless that is known not to be.
-    const bool inside = mpfr_lessequal_p(low, got) && mpfr_lessequal_p(got, high);
-    if (inside && !equal) return false;
-    constexpr double margin = 0x1p-50;
-    finding.least = equal ? smallest_error : std::min(a.error, b.error).value * (1 - margin);
-    finding.greatest = std::max(a.error, b.error).value * (1 + margin);
-    // At a power of two the spacing jumps, and the error with it: by 2, but next to the least number of a
-    // format without subnormals.
-    const mpfr_exp_t top = std::max(mpfr_get_exp(low), mpfr_get_exp(high));
-    if (mpfr_get_exp(low) != mpfr_get_exp(high)) {
-      constexpr FloatFormat format = float_format<Real>();
-      if (!format.subnormals && top - 1 == format.exponent_min) return false;
-      if (!equal) finding.least /= 2;
-      finding.greatest *= 2;
-    }
-    finding.distance = std::max(a.distance, b.distance);
-    finding.distance_known = a.distance == b.distance;
-    return true;
-  }
-
   void judge_in_full(const Batch<Real>& batch, std::size_t i, RowTally<Real>& tally) {
     full_.load(batch, i);
-    for (const Check& check : checks_) {
-      if (check.i != i) continue;
-      for (std::size_t part = 0; part < parts_; ++part) {
-        if (!check.findings[part].allows(full_.judgement(batch, i, part))) disagree(check, batch, part);
-      }
-    }
+    hold_checks(batch, i, "full", [&](const Finding& f, std::size_t part) {
+      return f.allows(full_.judgement(batch, i, part));
+    });
     full_.settle(batch, i, tally);
     ++decided_[static_cast<std::size_t>(Stage::full)];
   }
 
-  [[noreturn]] static void disagree(const Check& check, const Batch<Real>& batch, std::size_t part) {
+  // Throws where `holds` denies what a stage found of a part of sample i.
+  template <class Holds>
+  void hold_checks(const Batch<Real>& batch, std::size_t i, std::string_view better, Holds&& holds) const {
+    for (const Check& check : checks_) {
+      if (check.i != i) continue;
+      for (std::size_t part = 0; part < parts_; ++part)
+        if (!holds(check.findings[part], part)) disagree(check, better, batch, part);
+    }
+  }
+
+  [[noreturn]] static void disagree(const Check& check, std::string_view better, const Batch<Real>& batch,
+                                    std::size_t part) {
     std::string text = "the screened reference (" + std::string(name_of(check.stage)) +
-                       ") disagrees with the full one in part " + std::to_string(part) + " of " +
-                       std::string(batch.function.name) + " at";
+                       ") disagrees with the " + std::string(better) + " one in part " +
+                       std::to_string(part) + " of " + std::string(batch.function.name) + " at";
     for (std::size_t j = 0; j < static_cast<std::size_t>(batch.function.arity); ++j)
       text += " " + to_hexfloat(batch.args_of(check.i)[j]);
     throw ReferenceDisagreement(text);
@@ -370,16 +351,16 @@ class ScreenedJudging {
 
   std::size_t parts_;
   decltype(native_stages(FunctionId{}, ScreenStages{})) natives_;
-  PointJudge<Real> stage_;
+  decltype(checking_stages(FunctionId{}, ScreenStages{})) checkers_;
+  MpfrStage<Real> mpfr_;
   FullJudging<Real> full_;
   std::uint64_t stride_;
-  MpfrValue upper_;
-  MpfrValue beside_;
   std::vector<std::size_t> pending_;
   std::vector<Real> gathered_;
   std::vector<std::uint8_t> verdicts_;  // of the batch's samples, by a scan
   std::vector<Check> checks_;
-  std::vector<std::size_t> spared_;  // checked samples on their way past the other stages
+  std::vector<std::size_t> looked_at_;
+  std::vector<std::size_t> spared_;  // checked samples that go past the other stages
   std::array<std::uint64_t, stage_count> decided_{};
 };
 

@@ -162,6 +162,12 @@ TEST(ScreenedJudging, ALyingStageIsFoundAndTheArgumentNamed) {
   stages.triple_double = lying_triple_double;
   expect_named<Float128Real>(stages, "triple_double");
   expect_named<Float128Real>(stages, "triple_double", ScreenedJudging<Float128Real>::check_stride);
+  // Narrower types are checked by it, and it by the full reference.
+  expect_named<float>(stages, "disagrees with the triple_double", ScreenedJudging<float>::check_stride);
+  expect_named<double>(stages, "disagrees with the triple_double", ScreenedJudging<double>::check_stride);
+  expect_named<long double>(stages, "disagrees with the triple_double",
+                            ScreenedJudging<long double>::check_stride);
+  expect_named<double>(stages, "(triple_double) disagrees with the full");
 #endif
 }
 
@@ -195,6 +201,23 @@ TEST(ScreenedJudging, DoubleDoubleDecidesNearlyEverySampleOfComplexFunctions) {
 }
 
 #ifdef ULPGATE_HAVE_FLOAT128
+// A checked sample that triple-double knows costs no full reference.
+TEST(ScreenedJudging, TripleDoubleChecksNarrowerTypes) {
+  constexpr std::uint64_t count = 64 * ScreenedJudging<double>::check_stride;
+  constexpr std::uint64_t deep = count / ScreenedJudging<double>::deep_check_stride;
+  for (const char* name : {"mul", "exp", "sin", "atan2", "tanh", "erf", "lgamma"}) {
+    for (const char* type : {"float", "double", "long_double"}) {
+      const Subject* subject = find_subject(name, type);
+      if (subject == nullptr) continue;
+      RowHint hint(1);
+      static_cast<void>(
+          subject->evaluate({Stratum::uniform, 1, count, nullptr}, 0, count, ReferenceMode::screened, hint));
+      EXPECT_GE(hint.decided[static_cast<std::size_t>(Stage::full)], deep) << name << ' ' << type;
+      EXPECT_LE(hint.decided[static_cast<std::size_t>(Stage::full)], deep + 20) << name << ' ' << type;
+    }
+  }
+}
+
 TEST(ScreenedJudging, TripleDoubleDecidesNearlyEverySampleOfFloat128) {
   if (find_subject("exp", "float128") == nullptr) GTEST_SKIP() << "float128 is not built";
   for (const char* name : {"add", "mul", "exp", "log", "sin", "atan2", "tanh", "erf", "lgamma"}) {

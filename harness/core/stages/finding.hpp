@@ -36,6 +36,18 @@ struct Finding {
            j.correctly_rounded == correctly_rounded &&
            (distance_known ? j.distance == distance : j.distance <= distance);
   }
+  // Whether there is a judgement that both allow.
+  [[nodiscard]] bool agrees_with(const Finding& other) const {
+    if (other.outcome != outcome) return false;
+    if (outcome != Outcome::finite) return true;
+    constexpr double margin = 0x1p-48;
+    if (other.greatest * (1 + margin) < least || greatest * (1 + margin) < other.least ||
+        other.correctly_rounded != correctly_rounded)
+      return false;
+    if (distance_known && other.distance_known) return distance == other.distance;
+    return !(distance_known && distance > other.distance) &&
+           !(other.distance_known && other.distance > distance);
+  }
 };
 
 // Sets the distance of a finding whose error says it.  On one grid the correctly rounded value is the nearest

@@ -1,4 +1,5 @@
-// TripleStage: functions in triple-double bound the errors of a batch of binary128 results.
+// TripleStage<Real>: functions in triple-double bound the errors of a batch of results, of binary128 and of
+// what is narrower.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +20,10 @@ namespace ulpgate {
 
 #ifdef ULPGATE_HAVE_FLOAT128
 
+template <class Real>
+concept UpToBinary128 = NativeReal<Real> || Float128Backed<Real>;
+
+template <UpToBinary128 Real>
 class TripleStage {
  public:
   static constexpr Stage id = Stage::triple_double;
@@ -31,7 +36,7 @@ class TripleStage {
   [[nodiscard]] bool exists() const { return function_ != nullptr; }
 
   // Evaluates the points of `args`, count * arity values.
-  void load(std::span<const Float128Real> args, std::size_t count) {
+  void load(std::span<const Real> args, std::size_t count) {
     args_.resize(args.size());
     results_.resize(count);
     bounds_.resize(count);
@@ -50,25 +55,29 @@ class TripleStage {
                       scales_[i]);
   }
 
-  // As NativeStage::find.  No say is had of zeros, infinities and what is far from double's exponents, and of
-  // most results that are too close to the value to tell.
-  [[nodiscard]] bool find(std::size_t i, std::size_t /*part*/, const Float128Real* args,
-                          const Float128Real& result, Finding& finding) const {
-    if (id_ == FunctionId::add || id_ == FunctionId::sub) return find_sum(args, result, finding);
-    if (find_next_to_limit(args[0].backend().value(), result.backend().value(), finding)) return true;
+  // As NativeStage::find.  No say is had of zeros, infinities and what is far from double's exponents, and,
+  // of binary128, of most results that are too close to the value to tell; of narrower types, which this only
+  // checks, their error is at least 0, exact or not.
+  [[nodiscard]] bool find(std::size_t i, std::size_t /*part*/, const Real* args, const Real& result,
+                          Finding& finding) const {
+    if constexpr (digits == 113) {
+      if (id_ == FunctionId::add || id_ == FunctionId::sub) return find_sum(args, result, finding);
+    }
+    if (find_next_to_limit(number(args[0]), number(result), finding)) return true;
     const TripleDouble value = results_[i];
-    const TripleDouble got = triple_of(result.backend().value(), scales_[i]);
+    const TripleDouble got = triple_of(number(result), scales_[i]);
     const double bound = bounds_[i];
     const Binade binade = binade_of(value);
     const Binade got_binade = binade_of(got);
     if (!(bound >= 0) || !binade.known || !got_binade.known || (got.hi < 0) != (value.hi < 0) ||
         std::abs(got_binade.exponent - binade.exponent) > 1 ||
-        std::abs(binade.exponent + scales_[i]) > greatest_exponent - 2) {
+        binade.exponent + scales_[i] < std::numeric_limits<Real>::min_exponent + 1 ||
+        binade.exponent + scales_[i] > std::numeric_limits<Real>::max_exponent - 3) {
       return false;
     }
     const double ulps = power_of_two(digits - 1 - binade.exponent);
     const double error = std::fabs(difference(got, value)) * ulps;
-    const double slack = bound * unit + 0x1p-44 + error * 0x1p-48;
+    const double slack = bound * unit + least_slack + error * 0x1p-48;
     double least = error - slack;
     double greatest = error + slack;
     // Next to a power of two the exact value may lie in the other binade, where the spacing is half or
@@ -79,9 +88,11 @@ class TripleStage {
       greatest = 2 * (error + 2 * slack);
     }
     if (least <= 0) {
-      if (!is_inexact(i, got)) return false;
-      least = smallest_error;
+      const bool inexact = is_inexact(i, got);
+      if (digits == 113 && !inexact) return false;
+      least = inexact ? smallest_error : 0;
     }
+    if (greatest < unseen) least = std::min(least, smallest_error);
     finding = {Outcome::finite, least, greatest, 0, true, true};
     if (greatest < 0.5) return true;
     if (!(least > 0.5)) return false;
@@ -91,10 +102,15 @@ class TripleStage {
   }
 
  private:
-  static constexpr int digits = 113;
+  static constexpr int digits = std::numeric_limits<Real>::digits;
   static constexpr int most_exponent = 850;
-  // One ulp of a triple in ulp of binary128, with a margin.
+  // One ulp of a triple in ulp of Real, with a margin, and what the difference of two of them is off by, and
+  // RealHP<4> beside it.
   static constexpr double unit = power_of_two(digits - triple_double_bits) * (1 + 0x1p-20);
+  static constexpr double least_slack =
+      power_of_two(digits - 157) + power_of_two(digits + 2 - std::numeric_limits<RealHP<4, Real>>::digits);
+  // Of an error like this RealHP<4> may see no more than that it is one.
+  static constexpr double unseen = 0x1p-60;
 
   static constexpr int greatest_exponent = 16383;
   static constexpr int no_exponent = -100000;
@@ -103,7 +119,13 @@ class TripleStage {
     const NumberBits bits = bits_of(x);
     return bits.normal ? bits.exponent : no_exponent;
   }
-  static Binary128 number(const Float128Real& x) { return x.backend().value(); }
+  static Binary128 number(const Real& x) {
+    if constexpr (NativeReal<Real>) {
+      return x;
+    } else {
+      return x.backend().value();
+    }
+  }
 
   static TripleDouble signed_power(Binary128 sign, int e) {
     return {sign < 0 ? -power_of_two(e) : power_of_two(e), 0, 0};
@@ -111,7 +133,7 @@ class TripleStage {
 
   // The arguments, and the exponent that the result has beside what is evaluated: those which products,
   // quotients and roots are scaled by.
-  void load_point(const Float128Real* from, TripleDouble* to, int& scale) const {
+  void load_point(const Real* from, TripleDouble* to, int& scale) const {
     const Binary128 x = number(from[0]);
     const int e = exponent_of(x);
     switch (id_) {
@@ -168,7 +190,7 @@ class TripleStage {
     return far_logarithm ? FunctionId::log : f;
   }
   // Sines and their like beyond 2^30, logarithms of what has exponents that double has not.
-  void load_prepared(std::span<const Float128Real> args) {
+  void load_prepared(std::span<const Real> args) {
     prepared_args_.clear();
     prepared_points_.clear();
     for (std::size_t i = 0; i < args.size(); ++i) {
@@ -248,10 +270,10 @@ class TripleStage {
   }
 
   // The error of a rounded sum is a number, too (Knuth's two-sum), ties and exact sums included.
-  [[nodiscard]] bool find_sum(const Float128Real* args, const Float128Real& result, Finding& finding) const {
-    const Binary128 x = args[0].backend().value();
-    const Binary128 y = id_ == FunctionId::sub ? -args[1].backend().value() : args[1].backend().value();
-    const Binary128 got = result.backend().value();
+  [[nodiscard]] bool find_sum(const Real* args, const Real& result, Finding& finding) const {
+    const Binary128 x = number(args[0]);
+    const Binary128 y = id_ == FunctionId::sub ? -number(args[1]) : number(args[1]);
+    const Binary128 got = number(result);
     const NumberBits bits = bits_of(got);
     if (x + y != got || !bits.normal || bits.exponent > 16000 || bits.exponent < -16000) return false;
     const Binary128 back = got - x;
