@@ -18,10 +18,11 @@
 namespace ulpgate {
 
 // One in this many samples is also evaluated with the family's RealHP<4>, chosen by its index: of a large row
-// fewer, since it costs a hundred times the sample.
+// fewer, since it costs hundreds of times the sample.
 [[nodiscard]] constexpr std::uint64_t oracle_stride(const StratumSource& source) {
   constexpr std::uint64_t small_row = std::uint64_t{1} << 18U;
-  if (source.stratum == Stratum::exhaustive) return 65537;
+  constexpr std::uint64_t large_row = std::uint64_t{1} << 22U;
+  if (source.count > large_row) return 65537;
   return source.count <= small_row ? 251 : 16381;
 }
 // The oracles agree when they differ by less than this, in ULP of Real; both carry some 3 p bits more than

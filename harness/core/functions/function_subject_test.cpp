@@ -92,6 +92,8 @@ TEST(Subjects, KeepTheirClaims) {
 TEST(Oracles, AreComparedAtAFixedStrideAndAgree) {
   EXPECT_EQ(oracle_stride({Stratum::uniform, 1, 1U << 18U, nullptr}), 251U);
   EXPECT_EQ(oracle_stride({Stratum::edges, 1, (1U << 18U) + 1, nullptr}), 16381U);
+  EXPECT_EQ(oracle_stride({Stratum::uniform, 1, 1U << 22U, nullptr}), 16381U);
+  EXPECT_EQ(oracle_stride({Stratum::uniform, 1, (1U << 22U) + 1, nullptr}), 65537U);
   EXPECT_EQ(oracle_stride({Stratum::exhaustive, 1, exhaustive_count, nullptr}), 65537U);
   const Summary s = run(*find_subject("sqrt", "double"), Stratum::uniform, 503);
   EXPECT_EQ(s.oracle.compared, 3U) << "0, 251 and 502";
