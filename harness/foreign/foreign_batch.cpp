@@ -21,9 +21,7 @@ constexpr std::uint8_t threw_of(Outcome o) {
 
 // Larger batches are those of exhaustive runs, where the second evaluation is of one point in so many.
 constexpr std::size_t whole_again = 2048;
-constexpr std::size_t stride_again = 16;
-// Of scalar functions, which have no lanes to be at fault and take longer.
-constexpr std::size_t scalar_stride_again = 64;
+constexpr std::size_t stride_again = 64;
 // Lanes whose neighbours are replaced by numbers that vector code likes least, in a batch.
 constexpr std::size_t lanes_again = 16;
 // A call that hangs costs its timeout: more than this in a batch is no run.
@@ -99,9 +97,7 @@ bool ForeignBatch::run() {
                    std::memcpy(&values_[points[slot] * size], from + slot * stride, size);
                });
   // What gave a value once more, in another order and in other lanes.
-  const std::size_t stride = count <= whole_again ? 1
-                             : call_.lanes() > 1  ? stride_again
-                                                  : scalar_stride_again;
+  const std::size_t stride = count <= whole_again ? 1 : stride_again;
   order.clear();
   for (std::size_t i = 0; i < count; i += stride)
     if (troubles_[i] == 0) order.push_back(static_cast<std::uint32_t>(i));
