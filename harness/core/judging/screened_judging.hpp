@@ -1,5 +1,5 @@
 // ScreenedJudging<Real>: cheap references with proven bounds first; what a stage cannot settle climbs to the
-// next, at the end to the full reference, and a fixed share is always checked against it.
+// next, at the end to the full reference, and a fixed share is always checked against better ones.
 #pragma once
 
 #include <algorithm>
@@ -128,8 +128,8 @@ class ScreenedJudging {
     }
   }
 
-  // Of narrower types than binary128 an independent stage with 48 bits more than double-double has, at a
-  // hundredth of the full reference's cost.
+  // Of narrower types than binary128: 48 bits more than double-double has, at a hundredth of the full
+  // reference's cost.  It is no other method: formulas of the two are one source (reference/multi_word).
   static auto checking_stages([[maybe_unused]] FunctionId f, [[maybe_unused]] const ScreenStages& s) {
 #ifdef ULPGATE_HAVE_FLOAT128
     if constexpr (NativeReal<Real>)
