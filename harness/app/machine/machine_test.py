@@ -1,97 +1,27 @@
-"""Tests of what surrounds a run: floating-point environment, identity of the machine, functions that do not come back, signals.
-Libraries that misbehave are compiled here and preloaded."""
+"""Tests of what surrounds a run: floating-point environment, identity of the machine, instruction sets."""
 
 import json
 import os
 import pathlib
-import re
-import shutil
 import signal
 import subprocess
-import time
+import sys
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-ULPGATE = os.environ.get("ULPGATE", str(ROOT / "build/release/harness/app/ulpgate"))
-CC = shutil.which("cc") or shutil.which("gcc")
-X86 = os.uname().machine == "x86_64"
-needs_cc = pytest.mark.skipif(CC is None, reason="no C compiler")
-needs_x86 = pytest.mark.skipif(
-    not X86 or CC is None, reason="registers of x86-64, and a C compiler"
-)
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "testing"))
 
-HEAD = """
-#define _GNU_SOURCE
-#include <dlfcn.h>
-#include <stdlib.h>
-#include <unistd.h>
-#include <xmmintrin.h>
-static double true_sin(double x) {
-  static double (*f)(double);
-  if (!f) f = (double (*)(double))dlsym(RTLD_NEXT, "sin");
-  return f(x);
-}
-"""
-BODIES = {
-    "mxcsr": "_mm_setcsr(_mm_getcsr() | 0x4000); return true_sin(x);",
-    "flush": "_mm_setcsr(_mm_getcsr() | 0x8000); return true_sin(x);",
-    "x87": 'unsigned short w = 0x027f; __asm__ volatile("fldcw %0" : : "m"(w)); return true_sin(x);',
-    "hang": "if (x > 1 && x < 2) for (;;) usleep(1000); return true_sin(x);",
-    "reference": "for (;;) usleep(1000);",
-    "other": "return true_sin(x);",
-    "worker": "*s = x, *c = 1; if (gettid() != getpid()) _mm_setcsr(_mm_getcsr() | 0x4000);",
-    "endless": "*s = x, *c = 1; static int calls; if (++calls > 2000) for (;;) usleep(1000);",
-}
-
-# What turns the bodies of a scene calls the sine and the cosine at once.
-SINCOS = "void sincos(double x, double *s, double *c) {"
-HEADS = {
-    "reference": "long double erfcl(long double x) {",
-    "worker": SINCOS,
-    "endless": SINCOS,
-}
-
-
-@pytest.fixture(scope="session")
-def library(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("preloaded")
-
-    def build(kind):
-        made = folder / f"{kind}.so"
-        if not made.exists():
-            source = folder / f"{kind}.c"
-            source.write_text(
-                HEAD + HEADS.get(kind, "double sin(double x) {") + BODIES[kind] + "}\n"
-            )
-            command = [CC, "-O1", "-shared", "-fPIC", "-o", made, source, "-ldl", "-lm"]
-            subprocess.run([str(c) for c in command], check=True)
-        return made
-
-    return build
-
-
-def run(*words, preload=None, timeout=60, **environment):
-    env = dict(os.environ) | environment
-    if preload:
-        env["LD_PRELOAD"] = str(preload)
-    done = subprocess.run(
-        [ULPGATE, *map(str, words)],
-        capture_output=True,
-        text=True,
-        env=env,
-        timeout=timeout,
-    )
-    return done.returncode, done.stdout, done.stderr
-
-
-# hypot stands before sin and is finished when that misbehaves, tan behind it.
-SIN_RUN = "math --functions hypot,sin,tan --types double --strata uniform --timing off".split()
-
-
-def sin_run(out, *words, samples=4000, **how):
-    return run(*SIN_RUN, "--samples", samples, "--out", out, *words, **how)
-
+from preloaded import (
+    CC,
+    X86,
+    interrupted,
+    library,
+    needs_x86,
+    run,
+    sin_run,
+    spinning,
+)  # noqa: E402, F401, E501
+from program import ULPGATE  # noqa: E402
 
 # The environment
 
@@ -233,17 +163,6 @@ def test_a9_the_gate_says_that_budgets_are_of_another_machine(tmp_path):
     assert code == 2 and "double.toml:" in err and "[machine] libm_variants" in err
 
 
-def spinning(tmp_path):
-    """A scene of 1500 spheres that turn, which two threads share."""
-    sphere = "[[sphere]]\nposition = [{}, 0, 0]\nradius = 0.3\nangular_velocity = [1, 2, 3]\n"
-    text = 'name = "spinning"\n[[material]]\nname = "m"\n' + "".join(
-        sphere.format(i) for i in range(1500)
-    )
-    file = tmp_path / "spinning.toml"
-    file.write_text(text + '[run]\ndt = 1e-4\nuntil = 0.1\nrecord = ["rotation"]\n')
-    return file
-
-
 @needs_x86
 def test_a8_a_thread_of_a_step_that_changes_the_environment_voids_it(tmp_path, library):
     words = ["scene", "run", spinning(tmp_path), "--types", "double", "--threads"]
@@ -251,149 +170,6 @@ def test_a8_a_thread_of_a_step_that_changes_the_environment_voids_it(tmp_path, l
     assert code == 4, err
     assert "spinning double step" in err and "MXCSR rounding upward" in err
     assert run(*words, "1", preload=library("worker"))[0] == 0
-
-
-# What does not end
-
-
-@needs_x86
-@pytest.mark.parametrize("threads", ["1", "2"])
-@pytest.mark.parametrize("verb", ["run", "compare", "speed", "explain"])
-def test_b5_a_scene_whose_step_never_ends_is_named(tmp_path, library, verb, threads):
-    words = ["scene", verb, spinning(tmp_path), "--types", "double", "--threads"]
-    code, _, err = run(*words, threads, "--timeout", "1", preload=library("endless"))
-    assert code == 4, err
-    assert re.search(
-        "spinning double steps? .* has not come back in 1 s", err
-    ), "the scene, its type, the steps"
-
-
-@needs_x86
-@pytest.mark.parametrize("threads", ["1", "2"])
-def test_b5_a_function_that_never_returns_is_named_with_its_argument(
-    tmp_path, library, threads
-):
-    out = tmp_path / "out"
-    start = time.monotonic()
-    code, _, err = sin_run(
-        out, "--timeout", "1.5", "--threads", threads, preload=library("hang")
-    )
-    assert code == 4, err
-    assert time.monotonic() - start < 30
-    (line,) = [text for text in err.splitlines() if "has not come back" in text]
-    assert "sin double uniform at 0x1." in line
-    x = float.fromhex(line.split(" at ")[1].split()[0])
-    assert 1 < x < 2
-    assert (out / "units/log.txt").read_bytes().count(
-        b"\n"
-    ) > 2, "finished units are kept"
-
-
-@needs_x86
-def test_b5_at_and_search_are_watched(tmp_path, library):
-    hang = library("hang")
-    code, _, err = run("--timeout", "0.5", "at", "sin", "double", "1.5", preload=hang)
-    assert code == 4 and "sin double at 0x1.8p+0 has not come back" in err
-    code, _, err = run(
-        "search", "sin", "double", "--timeout", "0.7", "--seconds", "100", preload=hang
-    )
-    assert (
-        code == 4 and "sin double search at 0x1." in err and "has not come back" in err
-    )
-
-
-@needs_x86
-def test_b5_kernels_and_integrators_are_watched(tmp_path, library):
-    words = ["--types", "double", "--timeout", "1", "--out"]
-    endless = library("endless")
-    rotation = ["kernels", "--kernels", "rotation", "--strata", "uniform", "--samples"]
-    code, _, err = run(*rotation, "4000", *words, tmp_path / "k", preload=endless)
-    assert code == 4 and "rotation double uniform at " in err, err
-    assert "has not come back in 1 s" in err
-    pendulum = ["integrators", "--problems", "pendulum", *words, tmp_path / "i"]
-    code, _, err = run(*pendulum, preload=library("hang"))
-    assert code == 4 and "pendulum double has not come back in 1 s" in err, err
-
-
-@needs_x86
-def test_b5_a_hang_in_the_scan_of_narrow_is_named_with_its_argument(tmp_path, library):
-    words = ["math", "--functions", "sin", "--types", "double", "--strata", "narrow"]
-    words += ["--samples", "64", "--timing", "off", "--timeout", "1.5"]
-    code, _, err = run(*words, "--out", str(tmp_path / "out"), preload=library("hang"))
-    assert code == 4, err
-    (line,) = [text for text in err.splitlines() if "has not come back" in text]
-    assert 1 < float.fromhex(line.split(" at ")[1].split()[0]) < 2
-
-
-def test_b5_a_function_that_takes_a_minute_is_named():
-    words = ["at", "cpow", "mpfr150", "1e300000", "1", "1", "1e300000"]
-    code, _, err = run("--timeout", "0.5", *words)
-    assert code == 4 and "cpow mpfr150 at 0x1.58" in err and "has not come back" in err
-
-
-@needs_x86
-def test_b5_a_reference_that_never_returns_is_named_as_such(tmp_path, library):
-    # Double's erfc is one that the long double of libm judges.
-    words = "math --functions erfc --types double --strata uniform --timing off".split()
-    words += ["--samples", "4000", "--out", tmp_path, "--timeout", "1.5"]
-    code, _, err = run(*words, preload=library("reference"))
-    assert code == 4 and "the reference of erfc double uniform at" in err
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["search", "sin", "double", "--seconds", "nan"],
-        ["search", "sin", "double", "--seconds", "inf"],
-        ["scene", "run", "pendulum3", "--checkpoint-seconds", "nan"],
-        ["math", "--timeout", "nan", "--out", "x"],
-        ["math", "--timeout", "-1", "--out", "x"],
-        ["--timeout", "0", "at", "sin", "double", "1"],
-    ],
-)
-def test_b5_times_that_are_none_are_refused(words):
-    code, _, err = run(*words)
-    option = next(w for w in words if w.startswith("--"))
-    assert code == 2 and option in err
-
-
-def interrupted(out, library, *signals):
-    """A run that hangs in its second half, ended by signals; returns the code and the seconds that it lived on."""
-    env = dict(os.environ) | {"LD_PRELOAD": str(library("hang"))}
-    words = [*SIN_RUN, "--samples", "4000", "--threads", "1", "--out", str(out)]
-    process = subprocess.Popen(
-        [ULPGATE, *words], env=env, stderr=subprocess.PIPE, text=True
-    )
-    log = out / "units/log.txt"
-    for _ in range(600):
-        if log.exists() and log.read_bytes().count(b"\n") > 2:
-            break
-        time.sleep(0.05)
-    time.sleep(0.5)
-    for s in signals:
-        process.send_signal(s)
-        time.sleep(0.8)
-    if len(signals) < 2:
-        process.kill()
-    err = process.communicate(timeout=20)[1]
-    return process.returncode, err
-
-
-@needs_x86
-@pytest.mark.parametrize(
-    "first,second",
-    [
-        (signal.SIGINT, signal.SIGINT),
-        (signal.SIGTERM, signal.SIGTERM),
-        (signal.SIGHUP, signal.SIGTERM),
-    ],
-)
-def test_b5_a_second_signal_ends_at_once_and_keeps_what_is_finished(
-    tmp_path, library, first, second
-):
-    code, err = interrupted(tmp_path / "out", library, first, second)
-    assert code == 3 and "ended at once" in err
-    assert (tmp_path / "out/units/log.txt").read_bytes().count(b"\n") > 2
 
 
 def test_fewer_instructions_give_the_same_records(tmp_path):
