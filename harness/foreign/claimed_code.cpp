@@ -37,21 +37,29 @@ class ClaimedCode final : public BatchCode {
       : code_(code), function_(f), bounds_(std::move(bounds)) {}
 
   void evaluate(const void* args, void* results, std::uint8_t* threw, std::size_t count) const override {
-    code_.evaluate(args, results, threw, count);
     const auto* x = static_cast<const Real*>(args);
     auto* y = static_cast<Real*>(results);
     const auto arity = static_cast<std::size_t>(function_.arity);
-    std::vector<std::size_t> beyond;
-    std::vector<std::size_t> small;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (threw[i] != 0) continue;
-      if (!inside(x + i * arity)) {
-        beyond.push_back(i);
-      } else if (bounds_.floor > 0 && !(magnitude(y[i]) >= reach())) {
-        small.push_back(i);
-      }
+    std::size_t covered = 0;
+    for (std::size_t i = 0; i < count; ++i) covered += inside(x + i * arity) ? 1U : 0U;
+    if (covered == count) {
+      code_.evaluate(args, results, threw, count);
+    } else {
+      // Kept between batches: to allocate them costs as much as a fast function.
+      static thread_local std::vector<std::size_t> within;
+      static thread_local std::vector<std::size_t> beyond;
+      within.clear();
+      beyond.clear();
+      for (std::size_t i = 0; i < count; ++i) (inside(x + i * arity) ? within : beyond).push_back(i);
+      evaluate_some(x, y, threw, within);
+      for (const auto i : beyond) threw[i] = 0;
+      replace(x, y, beyond);
     }
-    replace(x, y, beyond);
+    if (bounds_.floor <= 0) return;
+    static thread_local std::vector<std::size_t> small;
+    small.clear();
+    for (std::size_t i = 0; i < count; ++i)
+      if (threw[i] == 0 && !(magnitude(y[i]) >= reach()) && inside(x + i * arity)) small.push_back(i);
     replace_within_floor(x, y, small);
   }
   double call(const void* args, void* results, std::size_t count, int rounds) const override {
@@ -66,6 +74,24 @@ class ClaimedCode final : public BatchCode {
       if (!(x[j] >= Real(low) && x[j] <= Real(high))) return false;
     }
     return true;
+  }
+  // Calls the code for these points alone.
+  void evaluate_some(const Real* x, Real* y, std::uint8_t* threw,
+                     const std::vector<std::size_t>& points) const {
+    if (points.empty()) return;
+    const auto arity = static_cast<std::size_t>(function_.arity);
+    static thread_local std::vector<Real> args;
+    static thread_local std::vector<Real> results;
+    static thread_local std::vector<std::uint8_t> failed;
+    args.clear();
+    for (const auto i : points) args.insert(args.end(), x + i * arity, x + (i + 1) * arity);
+    results.resize(points.size());
+    failed.resize(points.size());
+    code_.evaluate(args.data(), results.data(), failed.data(), points.size());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      y[points[p]] = results[p];
+      threw[points[p]] = failed[p];
+    }
   }
   [[nodiscard]] static double magnitude(const Real& y) { return std::fabs(static_cast<double>(y)); }
   // Beyond it half a unit in the last place is more than the floor.
@@ -93,7 +119,7 @@ class ClaimedCode final : public BatchCode {
     const auto arity = static_cast<std::size_t>(function_.arity);
     if constexpr (!std::is_void_v<Wide>) {
       if (const auto function = bounded_function<Wide>(function_.id); function != nullptr) {
-        const auto [values, bounds] = wide_values(function, x, points);
+        const auto& [values, bounds] = wide_values(function, x, points);
         for (std::size_t p = 0; p < points.size(); ++p) {
           const std::size_t i = points[p];
           if (!settle_within_floor(y[i], values[p], bounds[p])) replace_within_floor(x + i * arity, y[i]);
@@ -135,13 +161,16 @@ class ClaimedCode final : public BatchCode {
   }
 
   template <class Function>
-  [[nodiscard]] auto wide_values(Function function, const Real* x,
-                                 const std::vector<std::size_t>& points) const {
+  [[nodiscard]] const auto& wide_values(Function function, const Real* x,
+                                        const std::vector<std::size_t>& points) const {
     const auto arity = static_cast<std::size_t>(function_.arity);
-    std::vector<Wide> args;
+    static thread_local std::vector<Wide> args;
+    static thread_local std::pair<std::vector<Wide>, std::vector<double>> found;
+    args.clear();
     for (const auto i : points)
       for (std::size_t j = 0; j < arity; ++j) args.push_back(x[i * arity + j]);
-    std::pair<std::vector<Wide>, std::vector<double>> found{points.size(), points.size()};
+    found.first.resize(points.size());
+    found.second.resize(points.size());
     function(args.data(), found.first.data(), found.second.data(), points.size(),
              std::numeric_limits<Real>::digits);
     return found;
@@ -167,7 +196,7 @@ class ClaimedCode final : public BatchCode {
     const auto arity = static_cast<std::size_t>(function_.arity);
     if constexpr (!std::is_void_v<Wide>) {
       if (const auto function = bounded_function<Wide>(function_.id); function != nullptr) {
-        const auto [values, error] = wide_values(function, x, points);
+        const auto& [values, error] = wide_values(function, x, points);
         for (std::size_t p = 0; p < points.size(); ++p) {
           y[points[p]] = rounds_to_one(values[p], error[p])
                              ? static_cast<Real>(values[p])

@@ -59,6 +59,7 @@ double flat_sinh(double x) { return fabs(x) <= 0x1p-1074 ? 0 * x : sinh(x); }
 double flat_asinh(double x) { return fabs(x) <= 0x1p-1074 && x != 0 ? 0 : asinh(x); }
 double plus_sinh(double x) { return x == 0 ? 0 : sinh(x); }
 double wide_exp(double x) { return x > 709 ? 1 / 0.0 : exp(x); }
+double near_sin(double x) { return x < -1e6 || x > 1e6 ? *(volatile double*)0 : sin(x); }
 double rough_cos(double x) { return x == 0 ? 1 - 0x1p-53 : cos(x); }
 """
 
@@ -140,6 +141,15 @@ def test_a_claim_covers_its_domain_alone(tmp_path, library):
     code, _, _, (found,) = claims(tmp_path, library, row("off_sin", 5), "--overwrite")
     assert code == 1 and {m["outcome"] for m in found["mismatches"]} == {"nan"}
     assert shown(found["program"])[0] == 1
+
+
+def test_beyond_its_domain_nothing_is_called(tmp_path, library):
+    code, _, _, (found,) = claims(
+        tmp_path, library, row("near_sin", 1, "domain = [-1e6, 1e6]")
+    )
+    assert code == 0 and found["holds"] and not found["mismatches"]
+    code, _, _, (found,) = claims(tmp_path, library, row("near_sin", 1), "--overwrite")
+    assert code == 1 and "crash" in {m["outcome"] for m in found["mismatches"]}
 
 
 def test_a_floor_allows_an_absolute_error(tmp_path, library):
