@@ -55,7 +55,7 @@ class ClaimedCode final : public BatchCode {
       for (const auto i : beyond) threw[i] = 0;
       replace(x, y, beyond);
     }
-    if (bounds_.floor <= 0) return;
+    if (!(bounds_.floor > 0)) return;
     static thread_local std::vector<std::size_t> small;
     small.clear();
     for (std::size_t i = 0; i < count; ++i)

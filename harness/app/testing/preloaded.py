@@ -5,8 +5,8 @@ import shutil
 import subprocess
 import time
 
+import program
 import pytest
-from program import ULPGATE
 
 CC = shutil.which("cc") or shutil.which("gcc")
 X86 = os.uname().machine == "x86_64"
@@ -68,14 +68,7 @@ def run(*words, preload=None, timeout=60, **environment):
     env = dict(os.environ) | environment
     if preload:
         env["LD_PRELOAD"] = str(preload)
-    done = subprocess.run(
-        [ULPGATE, *map(str, words)],
-        capture_output=True,
-        text=True,
-        env=env,
-        timeout=timeout,
-    )
-    return done.returncode, done.stdout, done.stderr
+    return program.run(*words, timeout=timeout, env=env)
 
 
 # hypot stands before sin and is finished when that misbehaves, tan behind it.
@@ -98,11 +91,11 @@ def spinning(tmp_path):
 
 
 def interrupted(out, library, *signals):
-    """A run that hangs in its second half, ended by signals; returns the code and the seconds that it lived on."""
+    """A run that hangs in its second half, ended by signals; returns its exit code and what it said on stderr."""
     env = dict(os.environ) | {"LD_PRELOAD": str(library("hang"))}
     words = [*SIN_RUN, "--samples", "4000", "--threads", "1", "--out", str(out)]
     process = subprocess.Popen(
-        [ULPGATE, *words], env=env, stderr=subprocess.PIPE, text=True
+        program.command(*words), env=env, stderr=subprocess.PIPE, text=True
     )
     log = out / "units/log.txt"
     for _ in range(600):
