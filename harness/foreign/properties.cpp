@@ -134,29 +134,40 @@ class Properties {
   }
 
   // Signs, exponents of the range that matters (2^-30 to 2^30, as far as the interval has them) and
-  // significands at random.
+  // significands at random, and the ends of a claim's domain.
   [[nodiscard]] std::vector<Real> arguments(std::size_t arity) {
     std::vector<Real> x;
-    while (x.size() < points * arity) {
-      const auto [low, high] = interval(x.size() % arity);
-      const std::uint64_t word = words_.word();
-      const int most =
-          std::isfinite(high) ? std::max(-20, std::min(30, std::ilogb(std::max(high, 1e-30)))) : 30;
-      const int exponent = -30 + static_cast<int>(words_.word() % static_cast<std::uint64_t>(most + 31));
-      const Real significand = Real(1) + static_cast<Real>(word >> 12U) * static_cast<Real>(0x1p-52);
-      Real value = std::ldexp(significand, exponent);
-      if ((word & 1U) != 0) value = -value;
-      const bool inside = value >= static_cast<Real>(low) && value <= static_cast<Real>(high);
-      if (!inside) value = -value;
-      if (value >= static_cast<Real>(low) && value <= static_cast<Real>(high)) {
-        x.push_back(value);
-      } else if (low >= 1) {
-        x.push_back(std::min(static_cast<Real>(high), Real(1) + std::abs(value)));
-      } else {
-        x.push_back(std::ldexp(value, -exponent - 1));
+    for (const bool upper : {false, true}) {
+      if (claim_.domain.empty()) break;
+      for (std::size_t j = 0; j < arity; ++j) {
+        const auto [low, high] = interval(j);
+        x.push_back(std::isfinite(upper ? high : low) ? static_cast<Real>(upper ? high : low)
+                                                      : between(low, high));
       }
     }
+    while (x.size() < points * arity) {
+      const auto [low, high] = interval(x.size() % arity);
+      x.push_back(between(low, high));
+    }
     return x;
+  }
+
+  // Where neither sign lies in the interval, anywhere between its ends.
+  [[nodiscard]] Real between(double low, double high) {
+    const std::uint64_t word = words_.word();
+    const int most =
+        std::isfinite(high) ? std::max(-20, std::min(30, std::ilogb(std::max(high, 1e-30)))) : 30;
+    const int exponent = -30 + static_cast<int>(words_.word() % static_cast<std::uint64_t>(most + 31));
+    const double fraction = static_cast<double>(word >> 12U) * 0x1p-52;
+    const Real value = std::ldexp(Real(1) + static_cast<Real>(fraction), exponent);
+    const auto least = static_cast<Real>(low);
+    const auto greatest = static_cast<Real>(high);
+    const Real one = (word & 1U) != 0 ? -value : value;
+    for (const Real either : {one, -one})
+      if (either >= least && either <= greatest) return either;
+    if (std::isfinite(low) && std::isfinite(high))
+      return std::clamp(static_cast<Real>(low + (high - low) * fraction), least, greatest);
+    return std::isfinite(low) ? least + value : greatest - value;
   }
 
   [[nodiscard]] bool inside(Real x) const {

@@ -28,7 +28,7 @@ struct ClaimFound {
   std::string implementation;
   std::uint64_t arguments = 0;
   double largest_ulp = -1;
-  std::string where;              // "uniform", "search", "exhaustive"
+  std::string where;              // "uniform", "search", "exhaustive", "domain"
   std::vector<std::string> args;  // of the largest, hexadecimal
   // Outcomes that are no number of ULP: name, how many, the arguments of the first, and the ULP that it comes
   // to all the same: a zero for one of the smallest numbers may be within a claim, and results that depend on
@@ -71,6 +71,10 @@ struct ClaimFound {
 // call.
 [[nodiscard]] std::string program_text(const ListedFunction& row, const BoundFunction& bound,
                                        const std::vector<std::string>& args);
+
+// Arguments in hexadecimal as values of the type.
+[[nodiscard]] std::vector<MpfrValue> values_of(const RealDescriptor& type,
+                                               const std::vector<std::string>& args);
 
 // The exact value of a real function at arguments in hexadecimal, to the bits of the type's reference.
 // Whoever does arithmetic with it stays in a WideExponentRange: it may lie beyond the range of the type.

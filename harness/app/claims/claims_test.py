@@ -143,6 +143,21 @@ def test_a_claim_covers_its_domain_alone(tmp_path, library):
     assert shown(found["program"])[0] == 1
 
 
+@pytest.mark.parametrize(
+    "low, high", [(1.23456789, 1.23456790), (1.3579, 1.3579), (-1e5, -99999.9)]
+)
+def test_a_narrow_domain_is_judged_all_the_same(tmp_path, library, low, high):
+    """Neither the strata nor the search draw an argument of it."""
+    bad = 1 <= low <= 2
+    rows = row("off_sin", 2, f"domain = [{low}, {high}]")
+    code, text, _, (found,) = claims(tmp_path, library, rows)
+    assert code == (1 if bad else 0) and found["holds"] == (not bad)
+    if bad:
+        assert found["where"] == "domain" and 2.5 < found["largest_ulp"] < 5
+        assert low <= float.fromhex(found["args"][0]) <= high
+        assert shown(found["program"])[0] == 1
+
+
 def test_beyond_its_domain_nothing_is_called(tmp_path, library):
     code, _, _, (found,) = claims(
         tmp_path, library, row("near_sin", 1, "domain = [-1e6, 1e6]")

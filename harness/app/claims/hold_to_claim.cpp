@@ -33,24 +33,32 @@ unsigned threads_of(const ClaimOptions& o) {
   return o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
+void add_error(ClaimFound& found, double ulp, const std::string& where,
+               const std::vector<std::string>& args) {
+  if (!(ulp > found.largest_ulp)) return;
+  found.largest_ulp = ulp;
+  found.where = where;
+  found.args = args;
+}
+
+void add_mismatch(ClaimFound& found, std::string_view outcome, std::uint64_t count,
+                  const std::vector<std::string>& args) {
+  const auto it = std::ranges::find(found.mismatches, outcome, &ClaimFound::Mismatch::outcome);
+  if (it != found.mismatches.end()) {
+    it->count += count;
+  } else {
+    found.mismatches.push_back({std::string(outcome), count, args, beyond_any});
+  }
+}
+
 void add_records(const std::vector<RowRecord>& records, ClaimFound& found) {
   for (const auto& r : records) {
     found.arguments += r.summary.samples;
-    if (r.summary.judged() > 0 && r.summary.max_error.value > found.largest_ulp) {
-      found.largest_ulp = r.summary.max_error.value;
-      found.where = r.stratum;
-      found.args = r.points.argmax;
-    }
-    for (std::size_t i = 1; i < outcome_count; ++i) {
-      if (r.summary.outcomes[i] == 0) continue;
-      const auto& args = r.points.first_mismatch.at(static_cast<Outcome>(i));
-      const auto it = std::ranges::find(found.mismatches, outcome_names[i], &ClaimFound::Mismatch::outcome);
-      if (it != found.mismatches.end()) {
-        it->count += r.summary.outcomes[i];
-      } else {
-        found.mismatches.push_back({std::string(outcome_names[i]), r.summary.outcomes[i], args, beyond_any});
-      }
-    }
+    if (r.summary.judged() > 0) add_error(found, r.summary.max_error.value, r.stratum, r.points.argmax);
+    for (std::size_t i = 1; i < outcome_count; ++i)
+      if (r.summary.outcomes[i] != 0)
+        add_mismatch(found, outcome_names[i], r.summary.outcomes[i],
+                     r.points.first_mismatch.at(static_cast<Outcome>(i)));
   }
 }
 
@@ -135,16 +143,28 @@ void search_worst(const ListedFunction& row, const Subject& subject, const Claim
     write_file(file, result.dump(2) + "\n");
   }
   found.arguments += result.at("evaluations").get<std::uint64_t>();
-  if (const auto ulp = result.at("ulp").get<double>(); ulp > found.largest_ulp) {
-    found.largest_ulp = ulp;
-    found.where = "search";
-    found.args = result.at("args").get<std::vector<std::string>>();
-  }
+  add_error(found, result.at("ulp").get<double>(), "search",
+            result.at("args").get<std::vector<std::string>>());
   for (const auto& m : result.at("mismatches")) {
     const auto outcome = m.at("outcome").get<std::string>();
     if (std::ranges::find(found.mismatches, outcome, &ClaimFound::Mismatch::outcome) ==
         found.mismatches.end())
       found.mismatches.push_back({outcome, m.at("count"), m.at("args"), beyond_any});
+  }
+}
+
+// The strata and the search are those of the whole function: of a narrow domain they may see nothing.
+void judge_within_domain(const ListedFunction& row, const Subject& subject, ClaimFound& found) {
+  if (row.claim.domain.empty()) return;
+  for (const auto& words : found.sample->args) {
+    const Point point = subject.point(values_of(subject.type(), split(words, ' ')));
+    const Judgement& j = point.parts.front().judgement;
+    ++found.arguments;
+    if (j.outcome == Outcome::finite) {
+      add_error(found, recorded(j.error).value, "domain", point.args_hex);
+    } else {
+      add_mismatch(found, name_of(j.outcome), 1, point.args_hex);
+    }
   }
 }
 
@@ -166,9 +186,10 @@ ClaimFound hold_to_claim(const ListedFunction& row, const BoundFunction& bound, 
   found.implementation = bound.subject->info().implementation;
   measure_strata(row, o, found);
   search_worst(row, *bound.subject, o, found);
+  found.sample = sampled_results(*bound.code, f, bound.element, row.claim, o.seed);
+  judge_within_domain(row, *bound.subject, found);
   size_mismatches(f, *bound.subject, found);
   found.properties = broken_properties(*bound.code, f, bound.element, row.claim, o.seed);
-  found.sample = sampled_results(*bound.code, f, bound.element, row.claim, o.seed);
   found.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return found;
 }
