@@ -1,9 +1,9 @@
 """ulpgate compare-output: two outputs of a program, field by field, and a third that tells whose error a difference is.
 
 REF is what is trusted so far, OUT what is judged, WIDE the same run in more digits.  Each is a file (CSV or other text in
-columns, legacy or XML VTK, HDF5 where h5py is there), or a directory of such files, compared by their names.  Fields go by
-name and rows by a key: columns --key names, else the first of id, body, particle, step ... that tells all rows apart, else
-by their place.
+columns, legacy or XML VTK, HDF5 where h5py is there), or a directory of such files, compared by their names, in which the
+type of the numbers may differ (packing_float_30000.csv and packing_double_30000.csv).  Fields go by name and rows by a
+key: columns --key names, else the first of id, body, particle, step ... that tells all rows apart, else by their place.
 
 Limits (--field NAME=LIMIT, NAME may hold * and ?; a file of limits has them in a table [fields]):
   exact            the same number or text; what whole numbers and texts are held to unless told otherwise
@@ -22,6 +22,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from compare_output import bless, judge, limits, show
+from compare_output.file_names import counterparts
 from compare_output.problem import (
     BAD_INPUT,
     DIFFERENT,
@@ -124,16 +125,27 @@ def pairs_of(options):
         raise Problem(BAD_INPUT, "REF, OUT and WIDE are all files or all directories")
     of_ref = _files(ref) if ref.exists() else set()
     of_out = _files(out)
+    of_wide = _files(wide) if wide is not None else set()
+    if options.bless:
+        # A file becomes the new one of its own name.
+        partner = {name: name for name in of_ref & of_out}
+    else:
+        partner = counterparts(of_ref, of_out)
+    third = {**counterparts(of_out, of_wide), **counterparts(of_ref, of_wide)}
+
+    def wide_of(name):
+        return wide / third.get(name, name) if wide is not None else None
+
     pairs = []
-    for name in sorted(of_ref | of_out):
-        third = wide / name if wide is not None else None
-        if name not in of_out:
-            pairs.append(Pair(ref / name, None, third, f"OUT has no {name}"))
-        elif name not in of_ref:
-            pairs.append(Pair(ref / name, out / name, third, f"REF has no {name}"))
+    for name in of_ref:
+        if name in partner:
+            pairs.append(Pair(ref / name, out / partner[name], wide_of(name)))
         else:
-            pairs.append(Pair(ref / name, out / name, third))
-    return pairs
+            pairs.append(Pair(ref / name, None, wide_of(name), f"OUT has no {name}"))
+    for name in of_out - set(partner.values()):
+        missing = f"REF has no {name}"
+        pairs.append(Pair(ref / name, out / name, wide_of(name), missing))
+    return sorted(pairs, key=lambda pair: pair.ref)
 
 
 def compare_pair(pair, rules, key):

@@ -271,6 +271,28 @@ def test_directories_are_compared_by_the_names_of_their_files(tmp_path, capfd):
     assert code == BAD_INPUT and "all files or all directories" in err
 
 
+def test_the_type_in_a_name_tells_no_files_apart(tmp_path, capfd):
+    wide = REF.replace("2.0", "2.0000000000000000000001")
+    for side, text in (("float", REF), ("double", REF), ("mpfr62", wide)):
+        (tmp_path / side).mkdir()
+        (tmp_path / side / f"a_{side}_10.csv").write_text(text)
+        (tmp_path / side / "doubles.csv").write_text(REF)
+    float_, double, mpfr62 = (
+        str(tmp_path / side) for side in ("float", "double", "mpfr62")
+    )
+    code, text, _ = run(capfd, float_, double, mpfr62)
+    assert code == PASS and "a_double_10.csv" in text and "a_mpfr62_10.csv" in text
+    # Where one directory holds both types, only its own name fits a file.
+    (tmp_path / "float/a_double_10.csv").write_text(REF.replace("2.0", "2.5"))
+    code, text, _ = run(capfd, float_, double)
+    assert code == DIFFERENT and "OUT has no a_float_10.csv" in text
+    assert "(x)" in text
+    # And a new reference has the name of the old one.
+    (tmp_path / "float/a_double_10.csv").unlink()
+    code, _, err = run(capfd, float_, double, "--bless", "--reason", "x")
+    assert code == BAD_INPUT and "a_float_10.csv: OUT has no such file" in err
+
+
 def test_bless_takes_a_reason_and_keeps_it(files, capfd, tmp_path):
     new = REF.replace("2.0", "2.5")
     ref, out = files(ref=REF, out=new)

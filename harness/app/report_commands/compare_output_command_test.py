@@ -55,6 +55,13 @@ def test_a_scene_in_three_types_tells_which_digits_are_floats(scene):
         "x_m: beyond its 7." in done.stdout
         and "what REF holds is its own error" in done.stdout
     )
+    # The directories hold files of the same names but for the type.
+    float_, double, float128 = (
+        scene[t].parents[1] for t in ("float", "double", "float128")
+    )
+    whole = run("compare-output", float_, double, "--wide", float128)
+    assert whole.returncode == 0 and scene["float128"].name in whole.stdout
+    assert "x_m: beyond its 7." in whole.stdout
     other = run(
         "compare-output", scene["double"], scene["float"], "--wide", scene["float128"]
     )
