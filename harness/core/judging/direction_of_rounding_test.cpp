@@ -6,6 +6,7 @@
 
 #include "harness/core/judging/screened_judging.hpp"
 #include "harness/core/records/recorded_figures.hpp"
+#include "reference/text/literal.hpp"
 
 namespace ulpgate {
 namespace {
@@ -116,6 +117,36 @@ TEST(DirectionOfRounding, IsTheSameForTheScreen) {
     }
   }
 }
+
+#ifdef ULPGATE_HAVE_FLOAT128
+// A sum of terms 2^k apart has more bits than RealHP<4>, which rounds its error.
+TEST(DirectionOfRounding, SumsOfTermsFarApartAreThoseOfTheFullReference) {
+  for (const FunctionId id : {FunctionId::add, FunctionId::sub}) {
+    const FunctionInfo& f = info_of(id);
+    for (int apart = 130; apart < 480; ++apart) {
+      const auto x = parse_real<Float128Real>("0x1.dfb51fadf9d623405da6f338250ep-12193");
+      const Float128Real y =
+          ldexp(parse_real<Float128Real>("0x1.0d3adaad297bc8fbb9a4888f5d2p-12193"), -apart);
+      const std::vector<Float128Real> args = {x, y};
+      const std::vector<Float128Real> results = {x};
+      const std::uint8_t threw = 0;
+      const auto figures = [&]<class Judging>(std::type_identity<Judging>, std::uint64_t index) {
+        RowHint hint(1);
+        RowTally<Float128Real> tally(f, hint);
+        Judging judging(f);
+        judging.judge(Batch<Float128Real>{f, args, results, {&threw, 1}, index}, tally);
+        return recorded_figures(tally.take()[0]);
+      };
+      // Index 0 is a checked one.
+      for (const std::uint64_t index : {0U, 1U}) {
+        ASSERT_NO_THROW(EXPECT_EQ(figures(std::type_identity<ScreenedJudging<Float128Real>>{}, index),
+                                  figures(std::type_identity<FullJudging<Float128Real>>{}, index)))
+            << f.name << " " << apart;
+      }
+    }
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace ulpgate

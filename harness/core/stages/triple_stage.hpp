@@ -286,7 +286,13 @@ class TripleStage {
         std::bit_cast<Binary128>(static_cast<unsigned __int128>(digits - 1 - grid + 16383) << 112U);
     const Binary128 exact = rest < 0 ? -rest * power : rest * power;
     const auto error = static_cast<double>(exact);
-    const double slack = static_cast<Binary128>(error) == exact ? 0 : error * 0x1p-52;
+    // The sum has more bits than the full reference where the terms are that far apart: what it rounds is
+    // more than what a double does of so small an error.
+    constexpr double seen_whole = 0x1p-150;
+    constexpr double rounded = power_of_two(digits + 2 - std::numeric_limits<RealHP<4, Real>>::digits);
+    static_assert(2 * digits + 150 < std::numeric_limits<RealHP<4, Real>>::digits);
+    const double slack = (static_cast<Binary128>(error) == exact ? 0 : error * 0x1p-52) +
+                         (rest != 0 && error < seen_whole ? rounded : 0);
     finding = {Outcome::finite, error - slack, error + slack, 0, true, true};
     // Too small for a double, or for the full reference to see.
     constexpr double tiny = 0x1p-300;
