@@ -49,14 +49,19 @@ compiles() { # C++ on standard input; further words are the compiler's
 has_compiler() {
   compiles -fsyntax-only <<<$'#include <ranges>\n#include <span>\n#include <mutex>\nstatic_assert(__cpp_lib_ranges > 0);'
 }
-has_fuzzer() {
-  local program code=0
+clang_links() { # SOURCE FLAG...
+  local program code=0 source="$1"
+  shift
   program="$(mktemp)"
-  clang++ -fsanitize=fuzzer,address -x c++ - -o "$program" \
-    <<<'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }' || code=1
+  clang++ "$@" -x c++ - -o "$program" <<<"$source" || code=1
   rm -f "$program"
   return "$code"
 }
+has_fuzzer() {
+  clang_links 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }' -fsanitize=fuzzer,address
+}
+has_sanitizers() { clang_links 'int main() {}' -fsanitize=address,undefined; }
+has_clang_openmp() { clang_links $'#include <omp.h>\nint main() { return omp_get_max_threads() < 1; }' -fopenmp; }
 has_header() { compiles -fsyntax-only <<<"#include <$1>"; }
 has_library() { # NAME HEADER
   local program code=0

@@ -87,11 +87,13 @@ def test_debian_gets_the_packages_of_its_release(machine, release, boost):
     assert "   install  50 %" in err
 
 
-def test_fuzz_adds_clang_and_the_library_of_its_fuzzer(machine):
+@pytest.mark.parametrize("option", ["--fuzz", "--asan"])
+def test_builds_by_clang_get_it_whole(machine, option):
     machine.apt()
-    assert machine.setup(DEBIAN_12, "--fuzz")[0] == 0
+    assert machine.setup(DEBIAN_12, option)[0] == 0
     words = machine.installed()
-    assert "libclang-rt-dev" in words and "clang" in words and "shellcheck" not in words
+    assert {"clang", "libclang-rt-dev", "libomp-dev"} <= set(words)
+    assert "shellcheck" not in words
 
 
 def test_modules_that_two_pythons_share_are_installed_for_one(machine):

@@ -64,7 +64,7 @@ long laguerre_sum(long n, long m, mpfr_srcptr x, MpfrValue& sum) {
   }
   if (mpfr_regular_p(sum.get()) == 0) return mpfr_get_prec(sum);
   const auto size = static_cast<unsigned long>(n + 1);
-  return largest - mpfr_get_exp(sum.get()) + 2 * std::bit_width(size) + 3;
+  return largest - mpfr_get_exp(sum.get()) + 2 * static_cast<long>(std::bit_width(size)) + 3;
 }
 
 // sqrt((2n+1)/(4 pi) (n-m)!/(n+m)!) P_n^m(cos theta) for 0 <= m <= n, by the upward recurrence in the degree

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "reference/types/format.hpp"
 #include "reference/types/mpfr_value.hpp"
@@ -44,7 +45,7 @@ inline Float128Real quad_from_mpfr(mpfr_srcptr rounded) {
   __float128 q = 0;
   if (mpfr_nan_p(rounded)) return Float128Real(nanq(""));
   if (mpfr_inf_p(rounded)) {
-    q = HUGE_VALQ;
+    q = std::numeric_limits<double>::infinity();
   } else if (!mpfr_zero_p(rounded)) {
     mpz_t z;
     mpz_init(z);

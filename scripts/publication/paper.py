@@ -43,6 +43,7 @@ from publication_jobs import SIZES, jobs_of  # noqa: E402
 
 PLAN = "night.json"  # the runner's name for what a directory was begun with
 COMMANDS = "commands.json"
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # The same bytes whenever it is compiled.
 TEX_ENVIRONMENT = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
 
@@ -167,9 +168,23 @@ def measure(options, runs):
     # The runner puts records into a history of its own option; the paper only reads one.
     for_runner = argparse.Namespace(**{**vars(options), "history": None})
     paper = Paper(for_runner, runs, plan, types, jobs)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in SIGNALS:
         signal.signal(number, paper.stop)
     return paper.run()
+
+
+def end_at_a_signal():
+    """What is written is written anew by the next call, so that a signal can end it anywhere, and its program with it."""
+
+    def stop(number, _):
+        name = signal.Signals(number).name
+        raise Failure(
+            INCOMPLETE,
+            f"stopped by {name} while the paper was written; the same command goes on",
+        )
+
+    for number in SIGNALS:
+        signal.signal(number, stop)
 
 
 def report(options, runs, out, *more):
@@ -177,7 +192,13 @@ def report(options, runs, out, *more):
     words += ["--out", str(out), *more]
     if options.history:
         words += ["--history", options.history]
-    return subprocess.run(words).returncode
+    code = subprocess.run(words).returncode
+    # Python's own code of a crash is that of a finding that is not shown again, which only a check can find.
+    known = (PASS, BAD_INPUT, INCOMPLETE, ENVIRONMENT)
+    if code in known or (code == REGRESSION and "--check" in more):
+        return code
+    print(f"paper: {words[1]} ended with exit code {code}", file=sys.stderr)
+    return ENVIRONMENT
 
 
 def compile_pdf(out):
@@ -234,6 +255,7 @@ def run(words):
     if held is None:
         raise Failure(ENVIRONMENT, f"{out}: another paper is made there")
     measured = measure(options, runs)
+    end_at_a_signal()
     written = report(options, runs, out)
     if written != PASS:
         return more_serious(measured, written)

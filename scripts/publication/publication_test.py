@@ -57,16 +57,20 @@ def test_a_command_is_shown_as_people_type_it():
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
-    """A small paper that was killed once on its way."""
+    """A small paper that was killed twice on its way: while it ran, and while it was written from what was there."""
     out = tmp_path_factory.mktemp("paper") / "out"
     words = [ROOT / "scripts/paper", "--small", *WORDS, "--out", out]
-    first = subprocess.Popen(words, stderr=subprocess.PIPE, text=True)
-    # Killed once its first job runs, wherever that is.
-    while first.poll() is None and not (out / "runs/logs").exists():
-        time.sleep(0.01)
-    first.send_signal(signal.SIGTERM)
-    _, said = first.communicate()
-    assert first.returncode in (3, 0), said
+    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as first:
+        # Killed once its first job runs, wherever that is.
+        while first.poll() is None and not (out / "runs/logs").exists():
+            time.sleep(0.01)
+        first.send_signal(signal.SIGTERM)
+        while first.poll() is None and not (out / "data").exists():
+            time.sleep(0.01)
+        first.send_signal(signal.SIGTERM)
+        said = first.stderr.read()
+    assert first.returncode == 3, said
+    assert "stopped by SIGTERM while the paper was written" in said
     done = run("--small", *WORDS, "--out", str(out))
     assert done.returncode == 0, done.stderr
     return out

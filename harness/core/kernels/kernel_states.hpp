@@ -23,7 +23,9 @@ class States {
   }
 
  private:
-  // Draws in a fixed order; each draw is an argument of the counter-based stream.
+  // Draws in a fixed order; each draw is an argument of the counter-based stream.  Two draws in one
+  // expression would be in the order of the compiler's choice, which for operands of an operator is another
+  // with GCC than with clang.
   class Maker {
    public:
     Maker(const States& states, std::uint64_t k) : states_(states), k_(k) {}
@@ -102,10 +104,14 @@ class States {
       s.overlap = smaller * relative_overlap();
       s.rest_overlap = s.overlap * between(Real(0), Real(2));
       s.normal = direction();
-      s.normal_old = s.normal + turn() * direction();
+      const Vec3 aside = direction();
+      s.normal_old = s.normal + turn() * aside;
       s.normal_old = s.normal_old / dem::norm(s.normal_old);
       s.x1 = vector();
-      if (is(Stratum::far)) s.x1 = s.x1 + power(20, 40) * direction();
+      if (is(Stratum::far)) {
+        const Vec3 away = direction();
+        s.x1 = s.x1 + power(20, 40) * away;
+      }
       s.x2 = s.x1 + ((s.r1 + s.r2) - s.overlap) * s.normal;
       s.arm1 = (s.r1 - s.overlap / 2) * s.normal;
       s.arm2 = -((s.r2 - s.overlap / 2) * s.normal);
@@ -138,15 +144,19 @@ class States {
       s.w2 = (speed * 10) * vector();
       s.velocity = speed * vector();
       if (is(Stratum::grazing)) {
-        s.velocity = speed * (across(s.normal) + power(-digits, -20) * s.normal);
+        const Vec3 little = power(-digits, -20) * s.normal;
+        s.velocity = speed * (across(s.normal) + little);
         s.v2 = s.v1 + s.velocity;
       }
       if (is(Stratum::cone)) s.velocity = (speed * signed_one()) * s.normal;
       s.closing_speed = -dem::dot(s.normal, s.velocity);
       s.dt = power(-24, -13);
-      s.force = power(-6, 10) * vector();
-      s.torque = power(-12, 4) * vector();
-      s.angular_momentum = (speed * power(-12, 0)) * vector();
+      s.force = vector();
+      s.force = power(-6, 10) * s.force;
+      s.torque = vector();
+      s.torque = power(-12, 4) * s.torque;
+      s.angular_momentum = vector();
+      s.angular_momentum = (speed * power(-12, 0)) * s.angular_momentum;
       s.gravity = {Real(0), -(Real(981) / Real(100)), Real(0)};
       s.damping = between(Real(0), Real(3) / 10);
     }
@@ -183,7 +193,8 @@ class States {
       if (is(Stratum::cone)) {
         s.shear = limit * across(s.normal);
       } else {
-        s.shear = (limit * between(Real(0), Real(12) / 10)) * across(s.normal_old);
+        s.shear = across(s.normal_old);
+        s.shear = (limit * between(Real(0), Real(12) / 10)) * s.shear;
       }
     }
 
