@@ -77,7 +77,7 @@ template <RealType Real>
 [[nodiscard]] ContactPhysics<Real> viscoelastic_physics(const Collision<Real>& c, const Real& m_reduced) {
   using std::log;
   using std::tan;
-  const Real pi = boost::math::constants::pi<Real>();
+  const Real& pi = boost::math::constants::pi<Real>();
   const Real ln = log(c.normal);
   const Real lt = log(c.tangential);
   const Real time2 = c.time * c.time;

@@ -113,7 +113,7 @@ class Assembler {
   }
 
   Real number(const std::string& at, const char* key, const Expression& text, Range range) const {
-    const Real value = evaluate_(text);
+    Real value = evaluate_(text);
     const std::string fault = range_fault(value, range);
     if (!fault.empty())
       throw SceneFault(at + "." + key + ": " + fault + ", is '" + text + "'" + shown(value));
