@@ -28,6 +28,7 @@ from jobs import types_of  # noqa: E402
 from night_common import (  # noqa: E402
     BAD_INPUT,
     ENVIRONMENT,
+    INCOMPLETE,
     PASS,
     REGRESSION,
     ROOT,

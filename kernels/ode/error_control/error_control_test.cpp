@@ -188,6 +188,33 @@ TEST(NewtonStepper, SettlesWhereOnlyRoundingsOfTheEquationsAreLeft) {
   EXPECT_LT(pendulum_error_in_roundoffs<long double>(), 1e5);
 }
 
+// Steps of a type that decomposes in long double are those of its own digits: twice as many change nothing.
+template <RealType Real>
+std::vector<Wide> stiff_end(const char* name, const char* step) {
+  const auto cases = initial_value_cases<Real>();
+  NewtonStepper<Real> stepper(case_of(cases, name).problem, CollocationNodes::radau, 5);
+  Real t(0);
+  for (int i = 0; i < 12; ++i) {
+    const Real h = real<Real>(step) * static_cast<Real>(1 << i);
+    stepper.advance(t, h);
+    t += h;
+  }
+  std::vector<Wide> end;
+  for (const Real& x : stepper.state()) end.push_back(static_cast<Wide>(x));
+  return end;
+}
+
+TEST(NewtonStepper, GivesAllDigitsOfATypeWhoseDecompositionsAreNarrow) {
+  for (const auto& [name, step] : {std::pair{"robertson", "0.01"}, std::pair{"hires", "0.0625"}}) {
+    const std::vector<Wide> own = stiff_end<Wide>(name, step);
+    const std::vector<Wide> wider = stiff_end<MpfrReal<150>>(name, step);
+    for (std::size_t d = 0; d < own.size(); ++d) {
+      const auto relative = static_cast<double>(Wide(abs(Wide(own[d] - wider[d])) / abs(wider[d])));
+      EXPECT_LT(relative, 1e-54) << name << " " << d;
+    }
+  }
+}
+
 // Stage equations without a solution: z = h/2 (1 + z^2) beyond h = 1, and a slope that jumps back over where
 // the solution would have to be.
 TEST(NewtonStepper, TakesNothingForASolutionWhereThereIsNone) {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "kernels/ode/algebra/linear.hpp"
+#include "kernels/ode/algebra/stage_system.hpp"
 #include "kernels/ode/coefficients/collocation.hpp"
 #include "kernels/ode/stepper/error_stepper.hpp"
 #include "reference/types/eigen_traits.hpp"
@@ -102,8 +103,8 @@ class NewtonStepper final : public ErrorStepper<Real> {
   }
 
  private:
-  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  using Matrix = typename StageSystem<Real>::Matrix;
+  using Vector = typename StageSystem<Real>::Vector;
 
   [[nodiscard]] std::size_t n() const { return this->state().size(); }
   [[nodiscard]] std::size_t s() const { return t_.c.size(); }
@@ -131,32 +132,15 @@ class NewtonStepper final : public ErrorStepper<Real> {
     }
   }
 
-  // I - h A (x) J with one Jacobian of all stages, or with that of each.
-  void decompose_with_one(const Real& h) {
-    Matrix m(at(s() * n()), at(s() * n()));
-    for (std::size_t j = 0; j < s(); ++j) fill_block(m, j, h, jacobian_);
-    lu_.compute(m);
-  }
+  void decompose_with_one(const Real& h) { system_.decompose(h, t_.a, {jacobian_}, true); }
   void decompose_with_each(const Real& t, const Real& h) {
-    Matrix m(at(s() * n()), at(s() * n()));
+    std::vector<std::vector<Real>> of_stages(s());
     std::vector<Real> stage(n());
-    std::vector<Real> j_of_stage;
     for (std::size_t j = 0; j < s(); ++j) {
       for (std::size_t d = 0; d < n(); ++d) stage[d] = this->state()[d] + z_[j][d];
-      jacobian(Real(t + t_.c[j] * h), stage, j_of_stage);
-      fill_block(m, j, h, j_of_stage);
+      jacobian(Real(t + t_.c[j] * h), stage, of_stages[j]);
     }
-    lu_.compute(m);
-  }
-  void fill_block(Matrix& m, std::size_t j, const Real& h, const std::vector<Real>& j_of_stage) const {
-    for (std::size_t i = 0; i < s(); ++i) {
-      const Real factor = h * t_.a[i][j];
-      for (std::size_t r = 0; r < n(); ++r) {
-        for (std::size_t c = 0; c < n(); ++c)
-          m(at(i * n() + r), at(j * n() + c)) =
-              (i == j && r == c ? Real(1) : Real(0)) - factor * j_of_stage[r * n() + c];
-      }
-    }
+    system_.decompose(h, t_.a, std::move(of_stages), system_.is_narrow());
   }
 
   void evaluate_stages(const Real& t, const Real& h) {
@@ -183,7 +167,7 @@ class NewtonStepper final : public ErrorStepper<Real> {
         residual(at(i * n() + d)) = h * sum - z_[i][d];
       }
     }
-    correction_ = lu_.solve(residual);
+    correction_ = system_.solve(residual);
     // Below this, a component has not all digits of the type.
     const Real least = std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon();
     Change largest;
@@ -251,7 +235,7 @@ class NewtonStepper final : public ErrorStepper<Real> {
       }
     }
     const std::vector<Real> size = sizes_of_stages();
-    const Matrix inverse = lu_.inverse();
+    const Matrix inverse = system_.inverse();
     for (std::size_t k = 0; k < s() * n(); ++k) {
       Real bound(0);
       for (std::size_t c = 0; c < s() * n(); ++c) bound += abs(inverse(at(k), at(c))) * residual(at(c));
@@ -266,8 +250,11 @@ class NewtonStepper final : public ErrorStepper<Real> {
     const Real u = std::numeric_limits<Real>::epsilon() / 2;
     // The rate falls behind its first estimate, and errors of many steps add up with one sign.
     const Real wanted = (tolerance_ > u ? tolerance_ : u) / 1024;
-    // A decomposition costs about as much as a third of the equations' number of corrections.
-    const Real worth = static_cast<Real>(std::max<std::size_t>(4, s() * n() / 3));
+    // A decomposition costs about as much as a third of the equations' number of corrections where it is one
+    // of the type's own, and about four of them in a narrower type.
+    const auto worth = [&] {
+      return static_cast<Real>(system_.is_narrow() ? 4 : std::max<std::size_t>(4, s() * n() / 3));
+    };
     Real before(0);
     int without_progress = 0;
     for (int iteration = 0; iteration < 200; ++iteration) {
@@ -282,12 +269,20 @@ class NewtonStepper final : public ErrorStepper<Real> {
         if (rate < 1 && change * rate <= wanted * (1 - rate)) return true;
         if (rate > Real(1) / 2) {
           ++without_progress;
-          const bool small = change < sqrt(u) / 16 || moved.normwise <= 256 * u;
+          const bool rounding = moved.normwise <= 256 * u;
+          // A narrow decomposition that no longer helps may be what keeps the error from falling.
+          if (without_progress >= 3 && system_.is_narrow() && !rounding) {
+            system_.widen();
+            without_progress = 0;
+            before = change;
+            continue;
+          }
+          const bool small = change < sqrt(u) / 16 || rounding;
           if (without_progress >= 3 && (small || at_rounding(t, h))) return true;
           // Far from the solution a small component may wander for a while.
           if (without_progress >= 12) return false;
         }
-        const bool slow = !(rate < 1) || log(Real(wanted / change)) < worth * log(rate);
+        const bool slow = !(rate < 1) || log(Real(wanted / change)) < worth() * log(rate);
         if (slow) decompose_with_each(t, h);
       }
       before = change;
@@ -331,7 +326,7 @@ class NewtonStepper final : public ErrorStepper<Real> {
   std::vector<Real> jacobian_;
   std::vector<std::vector<Real>> z_;
   std::vector<std::vector<Real>> slopes_;
-  Eigen::PartialPivLU<Matrix> lu_;
+  StageSystem<Real> system_;
   Vector correction_;  // of the stages, the last one
 };
 
