@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "reference/text/text.hpp"
+#include <algorithm>
+
+#include "reference/text/literal.hpp"
 
 namespace ulpgate::ode {
 namespace {
