@@ -36,6 +36,7 @@ requires(ulpgate::RealType<Real> && !ulpgate::NativeReal<Real>) struct NumTraits
   static Real highest() { return (std::numeric_limits<Real>::max)(); }
   static Real lowest() { return -(std::numeric_limits<Real>::max)(); }
   static Real infinity() { return std::numeric_limits<Real>::infinity(); }
+  // NOLINTNEXTLINE(readability-identifier-naming): Eigen asks for it
   static Real quiet_NaN() { return std::numeric_limits<Real>::quiet_NaN(); }
   static int digits10() { return std::numeric_limits<Real>::digits10; }
 };
