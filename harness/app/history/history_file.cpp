@@ -91,7 +91,11 @@ void HistoryFile::check_or_make() {
     }
     return true;
   };
-  if (hold()) return;
+  // In one transaction: of a file that another process makes meanwhile all is seen, or nothing.
+  database_.run("BEGIN");
+  const bool held = hold();
+  database_.run("COMMIT");
+  if (held) return;
   if (access_ == Database::Access::read)
     throw Failure(Standing::bad_input,
                   fmt::format("{}: no history is there; --add DIR makes one", database_.file()));
