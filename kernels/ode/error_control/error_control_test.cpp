@@ -205,7 +205,7 @@ std::vector<Wide> stiff_end(const char* name, const char* step) {
 }
 
 TEST(NewtonStepper, GivesAllDigitsOfATypeWhoseDecompositionsAreNarrow) {
-  for (const auto& [name, step] : {std::pair{"robertson", "0.01"}, std::pair{"hires", "0.0625"}}) {
+  for (const auto& [name, step] : {std::pair{"robertson", "1e-5"}, std::pair{"hires", "1e-3"}}) {
     const std::vector<Wide> own = stiff_end<Wide>(name, step);
     const std::vector<Wide> wider = stiff_end<MpfrReal<150>>(name, step);
     for (std::size_t d = 0; d < own.size(); ++d) {

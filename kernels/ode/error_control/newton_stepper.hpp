@@ -87,11 +87,11 @@ class NewtonStepper final : public ErrorStepper<Real> {
 
   [[nodiscard]] bool attempt(const Real& t, const Real& h) override {
     using std::isfinite;
-    z_.assign(s(), std::vector<Real>(n(), Real(0)));
     slopes_.assign(s(), std::vector<Real>(n()));
     jacobian(t, this->state(), jacobian_);
-    decompose_with_one(h);
-    if (!iterate(t, h)) return false;
+    // No step is given up for what a narrow decomposition did to its stages.
+    if (!solve_stages(t, h, true) && !(StageSystem<Real>::can_be_narrow && solve_stages(t, h, false)))
+      return false;
     finish(t, h);
     return true;
   }
@@ -132,7 +132,11 @@ class NewtonStepper final : public ErrorStepper<Real> {
     }
   }
 
-  void decompose_with_one(const Real& h) { system_.decompose(h, t_.a, {jacobian_}, true); }
+  [[nodiscard]] bool solve_stages(const Real& t, const Real& h, bool narrow) {
+    z_.assign(s(), std::vector<Real>(n(), Real(0)));
+    system_.decompose(h, t_.a, {jacobian_}, narrow);
+    return iterate(t, h);
+  }
   void decompose_with_each(const Real& t, const Real& h) {
     std::vector<std::vector<Real>> of_stages(s());
     std::vector<Real> stage(n());
