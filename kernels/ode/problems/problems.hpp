@@ -27,6 +27,7 @@ namespace detail {
 template <RealType Real>
 [[nodiscard]] std::vector<Real> rounded_all(const std::vector<Guarded<Real>>& wide) {
   std::vector<Real> out;
+  out.reserve(wide.size());
   for (const auto& x : wide) out.push_back(rounded<Real>(x));
   return out;
 }
