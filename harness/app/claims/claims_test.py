@@ -59,7 +59,8 @@ double flat_sinh(double x) { return fabs(x) <= 0x1p-1074 ? 0 * x : sinh(x); }
 double flat_asinh(double x) { return fabs(x) <= 0x1p-1074 && x != 0 ? 0 : asinh(x); }
 double plus_sinh(double x) { return x == 0 ? 0 : sinh(x); }
 double wide_exp(double x) { return x > 709 ? 1 / 0.0 : exp(x); }
-double near_sin(double x) { return x < -1e6 || x > 1e6 ? *(volatile double*)0 : sin(x); }
+/* Each crash is a new worker: far out it is a right sine again. */
+double near_sin(double x) { return fabs(x) > 1e6 && fabs(x) < 1e8 ? *(volatile double*)0 : sin(x); }
 double rough_cos(double x) { return x == 0 ? 1 - 0x1p-53 : cos(x); }
 """
 

@@ -28,7 +28,7 @@ def run(*words, **more):
 
 
 def kernels(out, *words):
-    code, _, err = run("kernels", *SMALL, "--samples", "3000", "--out", out, *words)
+    code, _, err = run("kernels", *SMALL, "--samples", "1500", "--out", out, *words)
     assert code == 0, err
     return (out / "kernels.jsonl").read_bytes()
 

@@ -20,7 +20,7 @@ from program import ROOT, ULPGATE  # noqa: E402
 SLOW = "ULPGATE_SANITIZED" in os.environ
 
 SIZE = ["--functions", "sin,pow,lgamma,csqrt", "--types", "double,mpfr62"]
-SIZE += ["--samples", "4000" if SLOW else "80000", "--strata", "uniform,binades,hard"]
+SIZE += ["--samples", "4000" if SLOW else "40000", "--strata", "uniform,binades,hard"]
 
 
 def words(out, *more, verb="math", size=SIZE):
