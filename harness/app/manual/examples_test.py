@@ -32,7 +32,10 @@ REPLACED = [
     (" --until 1e11", " --until 40"),
     (" --dt plan:1e-3..1e-12", " --dt plan:1e-3..1e-5"),
     (" --cases pendulum3 --until 0.1", " --cases pendulum3 --until 0.0002"),
-    ("advise pendulum3 --error 1e-10 --until 0.1", "advise pendulum3 --error 1e-10 --until 0.02"),
+    (
+        "advise pendulum3 --error 1e-10 --until 0.1",
+        "advise pendulum3 --error 1e-10 --until 0.02",
+    ),
     ("sin,exp,kernel", "sin,exp"),
 ]
 
