@@ -128,7 +128,7 @@ template <RealType Real>
     return collider.moved(b, i);
   };
   if (threads > 1) {
-#pragma omp parallel for schedule(dynamic, 512) num_threads(threads) reduction(|| : left)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : left)
     for (std::int64_t k = 0; k < count; ++k) {
       const bool gone = advance(static_cast<std::size_t>(k));
       left = left || gone;

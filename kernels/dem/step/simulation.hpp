@@ -174,7 +174,8 @@ class Simulation {
   }
 
   // Every pair writes its own slot, then every body sums its slots in the order of the pairs: the serial
-  // order.
+  // order.  Shares are fixed, so that a thread finds most slots and bodies in its own cache: pairs are in the
+  // order of their bodies.
   void contacts_by_slots(const ContactPass<Real>& pass) {
     const auto count = static_cast<std::int64_t>(s_.contacts.size());
     if (slots_.size() < s_.contacts.size()) {
@@ -185,13 +186,13 @@ class Simulation {
     const auto bodies = static_cast<std::int64_t>(b.size());
 #pragma omp parallel num_threads(threads_)
     {
-#pragma omp for schedule(dynamic, 1024)
+#pragma omp for schedule(static)
       for (std::int64_t k = 0; k < count; ++k) {
         const auto p = static_cast<std::size_t>(k);
         if ((p + 1) % work_between_counts == 0) got_on();
         active_[p] = pass.evaluate(p, slots_[p]) ? 1 : 0;
       }
-#pragma omp for schedule(dynamic, 512)
+#pragma omp for schedule(static)
       for (std::int64_t k = 0; k < bodies; ++k) {
         const auto i = static_cast<std::size_t>(k);
         for (const std::int32_t entry : collider_.pairs_of(i)) {
