@@ -65,3 +65,6 @@ list(REMOVE_DUPLICATES ULPGATE_TRAJECTORY_REFERENCES)
 # All types that the integrators are built in.
 set(ULPGATE_INTEGRATED_TYPES ${ULPGATE_BUILT_TYPES} ${ULPGATE_TRAJECTORY_REFERENCES})
 list(REMOVE_DUPLICATES ULPGATE_INTEGRATED_TYPES)
+# Steps are planned in double and true solutions integrated in the two others, whatever is built.
+set(ULPGATE_STEPPER_TYPES ${ULPGATE_INTEGRATED_TYPES} double mpfr62 mpfr150)
+list(REMOVE_DUPLICATES ULPGATE_STEPPER_TYPES)

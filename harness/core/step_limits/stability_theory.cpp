@@ -332,6 +332,11 @@ std::unique_ptr<StabilityTheory> theory_of_other_arrangement(std::string_view in
   return std::make_unique<SplittingTheory>(sequence);
 }
 
+// Of real matrices as well: a second solver takes longer to compile than the rest of this.
+static double spectral_radius(const Eigen::MatrixXcd& m) {
+  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(m, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
 double sweep_radius(int stages, Axis axis, double z) {
   const auto& tableau = ode::gauss_tableau<double>(stages);
   const Complex mu = axis == Axis::imaginary ? Complex(0, z) : Complex(-z, 0);
@@ -349,7 +354,7 @@ double sweep_radius(int stages, Axis axis, double z) {
     }
   }
   const Eigen::MatrixXcd sweep = lower.triangularView<Eigen::Lower>().solve(upper);
-  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(sweep, false).eigenvalues().cwiseAbs().maxCoeff();
+  return spectral_radius(sweep);
 }
 
 double sweep_limit(int stages, Axis axis, double radius) {
@@ -368,12 +373,12 @@ double sweep_limit(int stages, Axis axis, double radius) {
 
 double jacobi_limit(int stages) {
   const auto& tableau = ode::gauss_tableau<double>(stages);
-  Eigen::MatrixXd a(stages, stages);
+  Eigen::MatrixXcd a(stages, stages);
   for (int i = 0; i < stages; ++i) {
     for (int j = 0; j < stages; ++j)
       a(i, j) = tableau.a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
   }
-  return 1 / Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues().cwiseAbs().maxCoeff();
+  return 1 / spectral_radius(a);
 }
 
 }  // namespace ulpgate

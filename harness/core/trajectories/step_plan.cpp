@@ -12,7 +12,7 @@
 
 #include "kernels/ode/error_control/adaptive.hpp"
 #include "kernels/ode/error_control/gragg_stepper.hpp"
-#include "kernels/ode/error_control/newton_stepper.hpp"
+#include "kernels/ode/integrators/make_stepper.hpp"
 #include "kernels/ode/problems/initial_value_cases.hpp"
 
 namespace ulpgate {
@@ -30,7 +30,7 @@ class Planner {
       if (c.name != problem) continue;
       name_ = c.name;
       if (c.stiff) {
-        stepper_ = std::make_unique<ode::NewtonStepper<double>>(c.problem, ode::CollocationNodes::radau, 3);
+        stepper_ = ode::make_newton_stepper<double>(c.problem, ode::CollocationNodes::radau, 3);
       } else {
         stepper_ = std::make_unique<ode::GraggStepper<double>>(c.problem, 4);
       }

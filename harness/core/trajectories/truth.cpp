@@ -6,79 +6,21 @@
 #include <memory>
 #include <stdexcept>
 
-#include "kernels/ode/error_control/adaptive.hpp"
-#include "kernels/ode/error_control/gragg_stepper.hpp"
-#include "kernels/ode/error_control/newton_stepper.hpp"
-#include "kernels/ode/problems/e5_logarithmic.hpp"
-#include "kernels/ode/problems/initial_value_cases.hpp"
+#include "harness/core/trajectories/truth_integration.hpp"
 #include "reference/text/text.hpp"
 
 namespace ulpgate {
 
 namespace {
 
-// How one integration is made: stages of Radau IIA or columns of the extrapolation, and the tolerance of a
-// step.
-struct Setting {
-  int order;
-  double tolerance;
-};
-
-template <RealType Real>
-struct Prepared {
-  ode::Problem<Real> problem;
-  bool stiff;
-  // The components of the case, of a state of `problem`.
-  std::function<std::vector<Real>(std::span<const Real>)> components;
-};
-
-template <RealType Real>
-[[nodiscard]] Prepared<Real> prepare(std::string_view name, std::string_view end) {
-  for (auto& c : ode::initial_value_cases<Real>()) {
-    if (c.name != name) continue;
-    if (std::ranges::find(c.ends, end) == c.ends.end())
-      throw std::invalid_argument("'" + std::string(end) + "' is no end of " + c.name);
-    if (name == "e5") return {ode::e5_logarithmic<Real>(), true, ode::e5_components<Real>};
-    return {c.problem, c.stiff,
-            [](std::span<const Real> y) { return std::vector<Real>(y.begin(), y.end()); }};
-  }
-  throw std::invalid_argument("no initial value problem is called '" + std::string(name) + "'");
-}
-
-template <RealType Real>
-[[nodiscard]] std::vector<Real> integrated(const Prepared<Real>& p, std::string_view end,
-                                           const Setting& setting, int digits, const ode::StopFlag& stop) {
-  std::unique_ptr<ode::ErrorStepper<Real>> stepper;
-  if (p.stiff) {
-    auto radau =
-        std::make_unique<ode::NewtonStepper<Real>>(p.problem, ode::CollocationNodes::radau, setting.order);
-    radau->set_newton_tolerance(pow(Real(10), -(digits + 12)));
-    stepper = std::move(radau);
-  } else {
-    stepper = std::make_unique<ode::GraggStepper<Real>>(p.problem, setting.order);
-  }
-  stepper->set_stop(stop);
-  // Components of an orbit pass through 0, where none of their digits can be asked for; concentrations do
-  // not.
-  const ode::StepControl control{setting.tolerance, p.stiff ? 0 : setting.tolerance, 4'000'000};
-  const auto run =
-      ode::integrate_adaptively<Real>(*stepper, ode::end_time<Real>(end), real<Real>("1e-8"), control, stop);
-  if (run.end != ode::AdaptiveEnd::reached) throw std::runtime_error(std::string(to_string(run.end)));
-  return p.components(stepper->state());
-}
-
-// Digits on which two numbers agree, relative to b.
-template <RealType Real>
-[[nodiscard]] double agreement(const Real& a, const Real& b) {
-  if (a == b) return HUGE_VAL;
-  if (b == 0) return 0;
-  return -static_cast<double>(Real(log10(Real(abs(Real(a - b)) / abs(b)))));
-}
+using truth::Setting;
 
 template <RealType Real>
 [[nodiscard]] std::vector<TrueValue> settled(std::string_view problem, std::string_view end, int digits,
                                              const ode::StopFlag& stop) {
-  const Prepared<Real> p = prepare<Real>(problem, end);
+  using std::abs;
+  const auto p = truth::prepare<Real>(problem, end);
+  const std::vector<Real> at{ode::end_time<Real>(end)};
   // Radau's estimate is of a far lower order than its error, the extrapolation's is of nearly the same.
   double exponent = p.stiff ? 0.6 * digits : digits + 6.0;
   const int order = p.stiff ? 9 : 12 + digits / 10;
@@ -86,12 +28,12 @@ template <RealType Real>
   for (int round = 0; round < 8; ++round) {
     const Setting coarse{order, std::pow(10.0, -exponent)};
     const Setting fine{p.stiff ? order + 4 : order + 3, std::pow(10.0, -exponent - 2)};
-    const std::vector<Real> a = integrated(p, end, coarse, digits, stop);
-    const std::vector<Real> b = integrated(p, end, fine, digits, stop);
+    const std::vector<Real> a = truth::integrated<Real>(p, at, coarse, digits, stop).front();
+    const std::vector<Real> b = truth::integrated<Real>(p, at, fine, digits, stop).front();
     std::vector<TrueValue> values;
     worst = HUGE_VAL;
     for (std::size_t i = 0; i < a.size(); ++i) {
-      const double agreed = agreement(a[i], b[i]);
+      const double agreed = truth::agreement<Real>(a[i], b[i], abs(b[i]));
       worst = std::min(worst, agreed);
       MpfrValue exact(std::numeric_limits<Real>::digits);
       to_mpfr(exact.get(), b[i]);

@@ -13,7 +13,7 @@
 
 #include "kernels/ode/error_control/adaptive.hpp"
 #include "kernels/ode/error_control/gragg_stepper.hpp"
-#include "kernels/ode/error_control/newton_stepper.hpp"
+#include "kernels/ode/integrators/make_stepper.hpp"
 #include "kernels/ode/problems/e5_logarithmic.hpp"
 #include "kernels/ode/problems/initial_value_cases.hpp"
 
@@ -56,10 +56,8 @@ template <RealType Real>
                                                         const ode::StopFlag& stop) {
   std::unique_ptr<ode::ErrorStepper<Real>> stepper;
   if (p.stiff) {
-    auto radau =
-        std::make_unique<ode::NewtonStepper<Real>>(p.problem, ode::CollocationNodes::radau, setting.order);
-    radau->set_newton_tolerance(pow(Real(10), -(digits + 12)));
-    stepper = std::move(radau);
+    stepper = ode::make_newton_stepper<Real>(p.problem, ode::CollocationNodes::radau, setting.order,
+                                             pow(Real(10), -(digits + 12)));
   } else {
     stepper = std::make_unique<ode::GraggStepper<Real>>(p.problem, setting.order);
   }

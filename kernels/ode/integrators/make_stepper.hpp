@@ -1,11 +1,13 @@
-// make_stepper(): any integrator of the list, step by step.
+// make_stepper(): any integrator of the list, step by step; make_newton_stepper(): one of any number of
+// stages.
 #pragma once
 
 #include <memory>
 #include <string_view>
 
+#include "kernels/ode/coefficients/collocation.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
-#include "kernels/ode/stepper/stepper.hpp"
+#include "kernels/ode/stepper/error_stepper.hpp"
 
 namespace ulpgate::ode {
 
@@ -16,5 +18,12 @@ namespace ulpgate::ode {
 // unit of its own, since every integrator in one type takes as long to compile as all that uses them.
 template <RealType Real>
 [[nodiscard]] std::unique_ptr<Stepper<Real>> make_stepper(std::string_view name, Problem<Real> problem);
+
+// A NewtonStepper, with its estimate of errors, whose iteration ends at `tolerance` (0: where rounding ends
+// it). Here for the same reason.
+template <RealType Real>
+[[nodiscard]] std::unique_ptr<ErrorStepper<Real>> make_newton_stepper(Problem<Real> problem,
+                                                                      CollocationNodes nodes, int stages,
+                                                                      const Real& tolerance = Real(0));
 
 }  // namespace ulpgate::ode

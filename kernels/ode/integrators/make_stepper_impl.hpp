@@ -1,4 +1,5 @@
-// The body of make_stepper(); included only by the one translation unit of each type.
+// The bodies of make_stepper() and make_newton_stepper(); included only by the one translation unit of each
+// type.
 #pragma once
 
 #include "kernels/ode/error_control/newton_stepper.hpp"
@@ -10,6 +11,14 @@
 #include "kernels/ode/integrators/splitting_stepper.hpp"
 
 namespace ulpgate::ode {
+
+template <RealType Real>
+std::unique_ptr<ErrorStepper<Real>> make_newton_stepper(Problem<Real> problem, CollocationNodes nodes,
+                                                        int stages, const Real& tolerance) {
+  auto stepper = std::make_unique<NewtonStepper<Real>>(std::move(problem), nodes, stages);
+  stepper->set_newton_tolerance(tolerance);
+  return stepper;
+}
 
 template <RealType Real>
 std::unique_ptr<Stepper<Real>> make_stepper(std::string_view name, Problem<Real> problem) {
