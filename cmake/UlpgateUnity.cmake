@@ -1,8 +1,8 @@
 # Unity builds: the sources of a room in one translation unit, so that the headers and templates that they share are compiled
 # once, which takes a quarter off a build from nothing.  On by default, so that two names that meet in a room are seen by
-# whoever wrote them; who changes one source again and again may rather have it OFF.  Code of one type keeps a
-# translation unit of its own either way: what a change can affect is read from its dependencies
-# (scripts/merge/changed_since.py).  Tests do as well, since their helpers have the same names everywhere.
+# whoever wrote them; who changes one source again and again may rather have it OFF.  Code of one type is compiled apart
+# from that of others either way, and what different parts of the gate use apart as well: what a change can affect is read
+# from dependencies (scripts/merge/changed_since.py).
 
 option(ULPGATE_UNITY "Compile the sources of a room in one translation unit" ON)
 

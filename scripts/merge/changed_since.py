@@ -25,6 +25,10 @@ TYPED = {
     "stability_engine": {"stress"},
     "trajectory_engine": {"stress", "scenes"},
     "order_engine": {"scenes", "stress"},
+    # Several of these in one translation unit.
+    "unity_function_of": {"math"},
+    "unity_stress_of": {"stress"},
+    "unity_integrating_of": {"scenes", "stress"},
 }
 PARTS = ("math", "kernels", "scenes", "stress")
 # What the program does not read while it measures.
@@ -82,7 +86,7 @@ def part_of(obj, types):
     """(type, parts) of an object that computes results of one type; None of any other."""
     name = pathlib.PurePath(obj).name
     for stem, parts in TYPED.items():
-        found = re.fullmatch(rf"{stem}_(.+?)(_x[14])?\.cpp\.o", name)
+        found = re.fullmatch(rf"{stem}_(.+?)(_x[14]\.cpp|\.cpp|_cxx\.cxx)\.o", name)
         if found and found[1] in types:
             return found[1], parts
     return None
