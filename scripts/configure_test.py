@@ -82,7 +82,7 @@ def test_a_program_of_functions_alone_compiles_nothing_of_scenes(tmp_path):
     assert code == 0, out + err
     commands = json.loads((tmp_path / "build" / "compile_commands.json").read_text())
     files = " ".join(command["file"] for command in commands)
-    assert "function_subjects_double" in files
+    assert "unity_function_of_double" in files
     for word in ("dem", "stepper", "order", "scene", "stress", "kernel_subjects"):
         assert word not in files.replace(str(tmp_path), "").replace(str(ROOT), "")
 

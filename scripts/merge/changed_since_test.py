@@ -90,7 +90,10 @@ def test_an_object_has_its_type_and_parts():
         {"kernels", "scenes", "stress"},
     )
     assert part_of("x/trajectory_engine_double.cpp.o", TYPES)[0] == "double"
-    assert part_of("x/unity_stress_of_double_cxx.cxx.o", TYPES) == ("double", {"stress"})
+    assert part_of("x/unity_stress_of_double_cxx.cxx.o", TYPES) == (
+        "double",
+        {"stress"},
+    )
     # A reference of no built type is used by types that the name does not tell.
     assert part_of("x/trajectory_engine_mpfr190.cpp.o", TYPES) is None
     assert part_of("x/registry.cpp.o", TYPES) is None
