@@ -8,6 +8,7 @@
 #include "reference/oracle/oracle_complex.hpp"
 #include "reference/oracle/oracle_erf.hpp"
 #include "reference/oracle/oracle_gamma.hpp"
+#include "reference/oracle/oracle_hyperbolic.hpp"
 #include "reference/oracle/oracle_special.hpp"
 
 namespace ulpgate {
@@ -130,7 +131,7 @@ void tangent_parts(mpfr_ptr from_trigonometric, mpfr_ptr from_hyperbolic, mpfr_s
     return;
   }
   MpfrValue sh(bits), ch(bits);
-  mpfr_sinh_cosh(sh, ch, b, nearest);
+  oracle::sinh_and_cosh(sh, ch, b);
   mpfr_sqr(c, c, nearest);
   mpfr_sqr(denominator, sh, nearest);
   mpfr_add(denominator, denominator, c, nearest);
@@ -224,8 +225,9 @@ void log_modulus(mpfr_ptr out, mpc_srcptr z) {
   mpfr_log(out, out, nearest);
 }
 
-// w log z with an absolute error of 2^-bits, but for the exponent of log z: of its imaginary part always, of
-// its real part below 2^64; beyond that a power is beyond MPFR's range, whatever the rest of it.
+// w log z with an absolute error of 2^(-bits - spared_bits()), but for the exponent of log z: of its
+// imaginary part always, of its real part below 2^64; beyond that a power is beyond MPFR's range, whatever
+// the rest of it.
 class PowerLogarithm {
  public:
   // `least` more bits of both ln|z| and arg z in any case.
@@ -244,6 +246,8 @@ class PowerLogarithm {
     mpfr_fmma(mpc_imagref(value()), mpc_realref(w), arg, mpc_imagref(w), log, nearest);
   }
   [[nodiscard]] mpc_ptr value() { return value_; }
+  // Of a small w the error is as small.
+  [[nodiscard]] long spared_bits() const { return std::max(0L, -std::max(re_, im_)); }
   // Whether the real part is not known well enough, which then has cancelled.
   [[nodiscard]] bool is_vague() {
     const long lacking = std::max(re_ - of_log_, im_ - of_arg_);
@@ -297,8 +301,9 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
     mpfr_sin_cos(sine, cosine, mpc_imagref(log_power.value()), nearest);
     const long lost = -std::min(exponent_of(sine), exponent_of(cosine));
     // |log z| needs up to 12 bits before its point for binary64's exponents, 64 for any.
-    if (lost + 80 > guard && guard < most_guard_bits) {
-      guard = std::min(lost + 160, most_guard_bits);
+    const long lacking = lost - log_power.spared_bits();
+    if (lacking + 80 > guard && guard < most_guard_bits) {
+      guard = std::min(lacking + 160, most_guard_bits);
       continue;
     }
     MpfrValue modulus(precision + 32);

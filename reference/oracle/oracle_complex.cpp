@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "reference/oracle/oracle_hyperbolic.hpp"
+
 namespace ulpgate::oracle {
 
 namespace {
@@ -17,7 +19,7 @@ using Parts = void (*)(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y);
 void sine(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
   const mpfr_prec_t bits = mpfr_get_prec(re);
   MpfrValue sh(bits), ch(bits);
-  mpfr_sinh_cosh(sh, ch, y, nearest);
+  sinh_and_cosh(sh, ch, y);
   mpfr_sin_cos(re, im, x, nearest);
   mpfr_mul(re, re, ch, nearest);
   mpfr_mul(im, im, sh, nearest);
@@ -27,7 +29,7 @@ void sine(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
 void cosine(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
   const mpfr_prec_t bits = mpfr_get_prec(re);
   MpfrValue sh(bits), ch(bits);
-  mpfr_sinh_cosh(sh, ch, y, nearest);
+  sinh_and_cosh(sh, ch, y);
   mpfr_sin_cos(im, re, x, nearest);
   mpfr_mul(re, re, ch, nearest);
   mpfr_mul(im, im, sh, nearest);

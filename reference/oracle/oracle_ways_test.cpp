@@ -7,6 +7,7 @@
 
 #include "reference/oracle/oracle.hpp"
 #include "reference/oracle/oracle_erf.hpp"
+#include "reference/oracle/oracle_hyperbolic.hpp"
 
 namespace ulpgate {
 namespace {
@@ -74,6 +75,46 @@ TEST(ComplexPowers, OfUnitsTurnByTheirAngle) {
 // -2 - 0i lies below the cut of the logarithm (C99 7.3.8.2 and annex G.6.3.2).
 TEST(ComplexPowers, BelowTheNegativeAxisTurnTheOtherWay) {
   for (const double w : {0.3, -1.7, 0.5, 2.5}) expect_power({-2, -0.0}, {w, 0});
+}
+
+// Of a tiny exponent z^w is next to 1, and the imaginary part next to it by itself: the bits of each part are
+// its own, and 2^-900 of the modulus is no error that is small beside it.
+TEST(ComplexPowers, OfATinyExponentHaveAllBitsOfBothParts) {
+  const WideExponentRange range;
+  for (const Point z : {Point{3, 0.25}, {-0x1p-1000, 7}, {1 + 0x1p-40, 0x1p-30}, {0x1.8p900, -0x1p1000}}) {
+    for (const Point w : {Point{0x1.4p-900, -0x1p-905}, {0x1p-1074, 0x1p-60}, {-0x1p-300, 0x1.6p-310}}) {
+      const auto got = power(z, w);
+      MpcValue log(bits + 1500), exponent(64);
+      mpc_set_d_d(log, z.re, z.im, MPC_RNDNN);
+      mpc_set_d_d(exponent, w.re, w.im, MPC_RNDNN);
+      mpc_log(log, log, MPC_RNDNN);
+      mpc_mul(log, log, exponent, MPC_RNDNN);
+      mpc_exp(log, log, MPC_RNDNN);
+      MpfrValue difference(64), allowed(64);
+      const auto expect_part = [&](const MpfrValue& part, mpfr_srcptr want) {
+        mpfr_sub(difference, part, want, nearest);
+        mpfr_mul_2si(allowed, want, -bits, nearest);
+        EXPECT_LE(mpfr_cmpabs(difference, allowed), 0) << z.re << " " << z.im << " ^ " << w.re << " " << w.im;
+      };
+      expect_part(got[0], mpc_realref(static_cast<mpc_ptr>(log)));
+      expect_part(got[1], mpc_imagref(static_cast<mpc_ptr>(log)));
+    }
+  }
+}
+
+// Both are the correctly rounded ones, whichever way is taken.
+TEST(SinhAndCosh, AreThoseOfMpfr) {
+  for (const long precision : {24L, 85L, 213L, 700L}) {
+    for (const long exponent : {-1000L, -400L, -120L, -60L, -43L, -20L, 0L, 8L}) {
+      MpfrValue x(53), sh(precision), ch(precision), want(precision);
+      mpfr_set_si_2exp(x, -12345, exponent - 14, nearest);
+      oracle::sinh_and_cosh(sh, ch, x);
+      mpfr_sinh(want, x, nearest);
+      EXPECT_NE(mpfr_equal_p(sh, want), 0) << precision << " bits, 2^" << exponent;
+      mpfr_cosh(want, x, nearest);
+      EXPECT_NE(mpfr_equal_p(ch, want), 0) << precision << " bits, 2^" << exponent;
+    }
+  }
 }
 
 // Beyond MPFR's range signs are all that is left of the parts.  Next to the negative axis an even Re(w) turns
