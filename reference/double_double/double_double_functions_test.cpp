@@ -260,6 +260,22 @@ TEST(DoubleDoubleFunctions, TellWhatIsNoNumber) {
   EXPECT_GT(told, 50U);
 }
 
+// Below the negative axis by 2^-1594 of the real part, which is -0 beside it: the angle is -pi, and z^(iw)
+// e^(pi w).
+TEST(DoubleDoubleFunctions, TellTheSideOfTheCutHoweverNearItIs) {
+  const std::array<DoubleDouble, 4> args{{{-0x1.8p912, 0}, {-0x1.8p-681, 0}, {0x1p-311, 0}, {0x1p-44, 0}}};
+  for (std::size_t level = 0; level < instruction_levels(); ++level) {
+    std::array<DoubleDouble, 2> results;
+    std::array<double, 2> bounds{};
+    double_double_function(FunctionId::cpow, level)(args.data(), results.data(), bounds.data(), 1, 53);
+    EXPECT_GT(bounds[0], 0);
+    EXPECT_GT(results[0].hi, 1) << level;
+    double_double_function(FunctionId::carg, level)(args.data(), results.data(), bounds.data(), 1, 53);
+    EXPECT_GT(bounds[0], 0);
+    EXPECT_LT(results[0].hi, -3) << level;
+  }
+}
+
 // The imaginary part of e^-1000 is 0 and not merely small.
 TEST(DoubleDoubleFunctions, TellNothingOfComplexNumbersOnAnAxisThatVanish) {
   for (const FunctionId id : {FunctionId::cexp, FunctionId::ctan, FunctionId::ctanh}) {
