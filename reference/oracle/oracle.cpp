@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 
 #include "reference/oracle/oracle_complex.hpp"
@@ -244,10 +245,35 @@ class PowerLogarithm {
     mpfr_atan2(arg, mpc_imagref(z), mpc_realref(z), nearest);
     mpfr_fmms(mpc_realref(value()), mpc_realref(w), log, mpc_imagref(w), arg, nearest);
     mpfr_fmma(mpc_imagref(value()), mpc_realref(w), arg, mpc_imagref(w), log, nearest);
+    // A term that is 0 is off by nothing.
+    if (mpfr_regular_p(mpc_realref(w)) && mpfr_regular_p(log.get()))
+      real_error_ = re_ + exponent_of(log) - of_log_ + 3 - bits;
+    if (mpfr_regular_p(mpc_imagref(w)) && mpfr_regular_p(arg.get()))
+      real_error_ = std::max(real_error_, im_ + exponent_of(arg) - of_arg_ + 3 - bits);
   }
   [[nodiscard]] mpc_ptr value() { return value_; }
   // Of a small w the error is as small.
   [[nodiscard]] long spared_bits() const { return std::max(0L, -std::max(re_, im_)); }
+  // Of the parts of the power, whose real part was rounded to `re`: whether 1 is the exact value, and on
+  // which side of it that lies.  It is 1 + d, d = p - q^2/2, but for the squares and the product of these two
+  // terms.
+  [[nodiscard]] ExactParts exactness(mpfr_srcptr re) {
+    if (mpfr_cmp_ui(re, 1) != 0) return not_known;
+    constexpr long bits = 160;
+    mpfr_srcptr p = mpc_realref(value());
+    MpfrValue d(bits);
+    MpfrValue half_square(bits);
+    mpfr_sqr(half_square, mpc_imagref(value()), nearest);
+    mpfr_div_2ui(half_square, half_square, 1, nearest);
+    mpfr_sub(d, p, half_square, nearest);
+    if (!mpfr_regular_p(d.get())) return not_known;
+    long terms = exponent_of(d);
+    if (mpfr_regular_p(p)) terms = std::max(terms, exponent_of(p));
+    if (mpfr_regular_p(half_square.get())) terms = std::max(terms, exponent_of(half_square));
+    // Of itself q is known as well as p is.
+    if (exponent_of(d) <= std::max({terms - bits + 8, 2 * terms + 4, real_error_ + 3})) return not_known;
+    return {mpfr_sgn(d.get()) < 0 ? Exactness::rounded_up : Exactness::rounded_down, Exactness::unknown};
+  }
   // Whether the real part is not known well enough, which then has cancelled.
   [[nodiscard]] bool is_vague() {
     const long lacking = std::max(re_ - of_log_, im_ - of_arg_);
@@ -262,6 +288,8 @@ class PowerLogarithm {
   long of_log_;
   long of_arg_;
   long bits_;
+  long real_error_ =
+      std::numeric_limits<long>::min() / 2;  // exponent of what the real part is off by at most
   MpcValue value_;
 };
 
@@ -294,7 +322,7 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
     }
     if (eighths) {
       power_by_turns(out, log_power.value(), mpc_realref(w), *eighths);
-      return not_known;
+      return log_power.exactness(mpc_realref(out));
     }
     MpfrValue sine(precision + 32);
     MpfrValue cosine(precision + 32);
@@ -310,7 +338,7 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
     mpfr_exp(modulus, mpc_realref(log_power.value()), nearest);
     mpfr_mul(mpc_realref(out), modulus, cosine, nearest);
     mpfr_mul(mpc_imagref(out), modulus, sine, nearest);
-    return not_known;
+    return log_power.exactness(mpc_realref(out));
   }
 }
 

@@ -40,6 +40,11 @@ const std::vector<Case>& cases() {
       {cpow, {1, 0x1p-300, -0.5, 0}, below_one, 1, 1, "1 - 3/8 2^-600"},
       {cpow, {1, 0x1p-300, 0.5, 0}, below_one, 0.5, 1, "1 + 1/8 2^-600"},
       {cpow, {1, 0x1p-300, -0.5, 0}, above_one, 2, 1, "1 - 3/8 2^-600"},
+      // By the sign of w log z: e^(+-2^-300 ln 2) cos(2^-400 ln 2).
+      {cpow, {2, 0x1p-900, -0x1p-300, 0x1p-400}, below_one, 1, 1, "1 - ln 2 2^-300"},
+      {cpow, {2, 0x1p-900, -0x1p-300, 0x1p-400}, 1, 0, 0, "wrong, but by next to nothing"},
+      {cpow, {2, 0x1p-900, 0x1p-300, 0x1p-400}, below_one, 0.5, 1, "1 + ln 2 2^-300"},
+      {cpow, {2, 0x1p-900, 0x1p-300, 0x1p-400}, above_one, 1, 1, "one spacing"},
       {csqrt, {1, 0x1p-300}, below_one, 0.5, 1, "1 + 1/8 2^-600"},
       {csqrt, {-1, 0x1p-300}, 0x1p-301, 0, 0, "2^-301 (1 - 1/8 2^-600): the exact value is a little less"},
       {csqrt, {-1, 0x1p-300}, 0x1.fffffffffffffp-302, 1, 1, "below 2^-301"},

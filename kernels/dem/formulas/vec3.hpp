@@ -40,17 +40,17 @@ struct Vec3 {
 };
 
 template <RealType Real>
-[[nodiscard]] Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+[[nodiscard]] inline Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
 template <RealType Real>
-[[nodiscard]] Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+[[nodiscard]] inline Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 template <RealType Real>
-[[nodiscard]] Real squared_norm(const Vec3<Real>& a) {
+[[nodiscard]] inline Real squared_norm(const Vec3<Real>& a) {
   return dot(a, a);
 }
 
@@ -120,18 +120,18 @@ template <RealType Real>
 
 // |a|, whose squared_norm is `squares`.
 template <RealType Real>
-[[nodiscard]] Real norm(const Vec3<Real>& a, const Real& squares) {
+[[nodiscard]] inline Real norm(const Vec3<Real>& a, const Real& squares) {
   using std::sqrt;
   return squares_hold(a, squares) ? Real(sqrt(squares)) : scaling::norm(a);
 }
 template <RealType Real>
-[[nodiscard]] Real norm(const Vec3<Real>& a) {
+[[nodiscard]] inline Real norm(const Vec3<Real>& a) {
   return norm(a, squared_norm(a));
 }
 
 // a/|a| of a vector of length `length`; of 0 it is NaN.
 template <RealType Real>
-[[nodiscard]] Vec3<Real> direction(const Vec3<Real>& a, const Real& length) {
+[[nodiscard]] inline Vec3<Real> direction(const Vec3<Real>& a, const Real& length) {
   // Below the normal range a length has few digits, and it may be infinite where the vector is not.
   return length >= least_normal<Real>() && length <= largest_number<Real>() ? a / length
                                                                             : scaling::direction(a);

@@ -17,107 +17,36 @@ struct FlowPart {
 
 namespace detail {
 
-// `Axes` is 2 where everything lies in the plane z = 0.
-template <int Axes, bool Damped, bool Gravity, bool Energy, RealType Real>
-class BondsAlone {
- public:
-  explicit BondsAlone(SimulationState<Real>& s) : s_(s) {
+// What bonds and bodies are, whatever of them a scene needs.
+template <RealType Real>
+struct BondedBodies {
+  explicit BondedBodies(const SimulationState<Real>& s) {
     for (const auto& bond : s.bonds) {
-      sums_.push_back(s.bodies.radius[static_cast<std::size_t>(bond.first)] +
-                      s.bodies.radius[static_cast<std::size_t>(bond.second)]);
+      sums.push_back(s.bodies.radius[static_cast<std::size_t>(bond.first)] +
+                     s.bodies.radius[static_cast<std::size_t>(bond.second)]);
     }
     for (std::size_t i = 0; i < s.bodies.size(); ++i) {
       // A fixed body at rest stays where it is.
       if (s.bodies.fixed[i] == 0) {
-        movable_.push_back(i);
+        movable.push_back(i);
       } else if (!(s.bodies.velocity[i] == Vec3<Real>{})) {
-        driven_.push_back(i);
+        driven.push_back(i);
       }
     }
   }
 
-  // Steps of kicks v += f dt a(x) and drifts x += f dt v instead of the leapfrog; positions and velocities
-  // then belong to one time, and so does the account, taken behind the last step.
-  void run_flow(const std::vector<FlowPart<Real>>& flow, std::uint64_t count) {
-    Bodies<Real>& b = s_.bodies;
-    const auto every_axis = [](auto&& apply) {
-      apply(&Vec3<Real>::x);
-      apply(&Vec3<Real>::y);
-      if constexpr (Axes == 3) apply(&Vec3<Real>::z);
-    };
-    std::vector<Real> part_of_dt;
-    for (const auto& part : flow) part_of_dt.push_back(part.fraction * s_.dt);
-    for (std::uint64_t n = 0; n < count; ++n) {
-      for (std::size_t k = 0; k < flow.size(); ++k) {
-        const Real& dt = part_of_dt[k];
-        if (flow[k].kick) forces();
-        for (const std::size_t i : movable_) {
-          every_axis([&](auto axis) {
-            if (!flow[k].kick) {
-              b.position[i].*axis += dt * (b.velocity[i].*axis);
-              return;
-            }
-            Real a = b.force[i].*axis / b.mass[i];
-            if constexpr (Gravity) a += s_.gravity.*axis;
-            b.velocity[i].*axis += dt * a;
-          });
-        }
-      }
-      ++s_.iteration;
-    }
-    if constexpr (Energy) {
-      forces();
-      s_.energies.kinetic = s_.energies.potential = Real(0);
-      for (const std::size_t i : movable_) {
-        s_.energies.kinetic += kinetic_energy(b.mass[i], b.velocity[i]);
-        if constexpr (Gravity)
-          s_.energies.potential += potential_energy(b.mass[i], s_.gravity, b.position[i]);
-      }
-    }
-    std::fill(b.force.begin(), b.force.end(), Vec3<Real>{});
-  }
+  std::vector<Real> sums;  // of the radii of a bond's bodies
+  std::vector<std::size_t> movable, driven;
+};
 
-  // Parameters are copied into locals: as numbers of the state they could change with every number written.
-  void run(std::uint64_t count) {
-    const Real dt = s_.dt;
-    const Real lambda = s_.damping;
-    const Vec3<Real> gravity = s_.gravity;
-    const Real zero{0};
-    Bodies<Real>& b = s_.bodies;
-    Vec3<Real>* const position = b.position.data();
-    Vec3<Real>* const velocity = b.velocity.data();
-    Vec3<Real>* const force = b.force.data();
-    const Real* const mass = b.mass.data();
-    const std::size_t bonds = s_.bonds.size();
-    const auto axis = [&](Real& x, Real& v, const Real& f, const Real& g, const Real& m) {
-      Real a = f / m;
-      if constexpr (Gravity) a += g;
-      if constexpr (Damped) a = damped(a, v, dt, lambda);
-      v += dt * a;
-      x += dt * v;
-    };
-    for (std::uint64_t n = 0; n < count; ++n) {
-      for (std::size_t i = 0; i < b.size(); ++i) {
-        force[i].x = zero;
-        force[i].y = zero;
-        if constexpr (Axes == 3) force[i].z = zero;
-      }
-      if constexpr (Energy) s_.energies.elastic = zero;
-      for (std::size_t k = 0; k < bonds; ++k) stretch(k, position, force);
-      if constexpr (Energy) account_bodies();
-      for (const std::size_t i : movable_) {
-        axis(position[i].x, velocity[i].x, force[i].x, gravity.x, mass[i]);
-        axis(position[i].y, velocity[i].y, force[i].y, gravity.y, mass[i]);
-        if constexpr (Axes == 3) axis(position[i].z, velocity[i].z, force[i].z, gravity.z, mass[i]);
-      }
-      for (const std::size_t i : driven_) drift(position[i], velocity[i], dt);
-      ++s_.iteration;
-    }
-    std::fill(b.force.begin(), b.force.end(), Vec3<Real>{});
-  }
+// Forces of bonds.  `Axes` is 2 where everything lies in the plane z = 0.
+template <int Axes, bool Energy, RealType Real>
+class BondForces {
+ public:
+  BondForces(SimulationState<Real>& s, const std::vector<Real>& sums) : s_(s), sums_(sums) {}
 
- private:
-  void forces() {
+  // Of all bonds, from nothing.
+  void all() {
     std::fill(s_.bodies.force.begin(), s_.bodies.force.end(), Vec3<Real>{});
     if constexpr (Energy) s_.energies.elastic = Real(0);
     for (std::size_t k = 0; k < s_.bonds.size(); ++k)
@@ -151,6 +80,7 @@ class BondsAlone {
     }
   }
 
+ private:
   static void push(Real& first, Real& second, const Real& fn, const Real& n) {
     const Real f = fn * n;
     first -= f;
@@ -190,15 +120,99 @@ class BondsAlone {
     if constexpr (Energy) s_.energies.elastic += elastic_energy<Real>(s_.contacts.kn[k], Real(0), fn, {});
   }
 
-  void account_bodies() {
-    s_.energies.kinetic = s_.energies.potential = Real(0);
-    for (std::size_t i = 0; i < s_.bodies.size(); ++i) account_body(s_, i, false);
-  }
-
   SimulationState<Real>& s_;
-  std::vector<Real> sums_;
-  std::vector<std::size_t> movable_, driven_;
+  const std::vector<Real>& sums_;
 };
+
+// Steps of kicks v += f dt a(x) and drifts x += f dt v instead of the leapfrog; positions and velocities
+// then belong to one time, and so does the account, taken behind the last step.
+template <int Axes, bool Gravity, RealType Real>
+void run_flow(SimulationState<Real>& s, const std::vector<FlowPart<Real>>& flow, std::uint64_t count) {
+  const BondedBodies<Real> bonded(s);
+  BondForces<Axes, false, Real> forces(s, bonded.sums);
+  Bodies<Real>& b = s.bodies;
+  const auto every_axis = [](auto&& apply) {
+    apply(&Vec3<Real>::x);
+    apply(&Vec3<Real>::y);
+    if constexpr (Axes == 3) apply(&Vec3<Real>::z);
+  };
+  std::vector<Real> part_of_dt;
+  for (const auto& part : flow) part_of_dt.push_back(part.fraction * s.dt);
+  for (std::uint64_t n = 0; n < count; ++n) {
+    for (std::size_t k = 0; k < flow.size(); ++k) {
+      const Real& dt = part_of_dt[k];
+      if (flow[k].kick) forces.all();
+      for (const std::size_t i : bonded.movable) {
+        every_axis([&](auto axis) {
+          if (!flow[k].kick) {
+            b.position[i].*axis += dt * (b.velocity[i].*axis);
+            return;
+          }
+          Real a = b.force[i].*axis / b.mass[i];
+          if constexpr (Gravity) a += s.gravity.*axis;
+          b.velocity[i].*axis += dt * a;
+        });
+      }
+    }
+    ++s.iteration;
+  }
+  if (s.parts.energy) {
+    // No bond of what has such an account breaks.
+    BondForces<Axes, true, Real>(s, bonded.sums).all();
+    s.energies.kinetic = s.energies.potential = Real(0);
+    for (const std::size_t i : bonded.movable) {
+      s.energies.kinetic += kinetic_energy(b.mass[i], b.velocity[i]);
+      if constexpr (Gravity) s.energies.potential += potential_energy(b.mass[i], s.gravity, b.position[i]);
+    }
+  }
+  std::fill(b.force.begin(), b.force.end(), Vec3<Real>{});
+}
+
+// The leapfrog; what it has is known when it is compiled (std::true_type) or when it runs (bool).  Parameters
+// are copied into locals: as numbers of the state they could change with every number written.
+template <int Axes, bool Energy, class Damping, class Gravity, RealType Real>
+void run_leapfrog(SimulationState<Real>& s, std::uint64_t count, Damping has_damping, Gravity has_gravity) {
+  const BondedBodies<Real> bonded(s);
+  BondForces<Axes, Energy, Real> forces(s, bonded.sums);
+  const Real dt = s.dt;
+  const Real lambda = s.damping;
+  const Vec3<Real> gravity = s.gravity;
+  const Real zero{0};
+  Bodies<Real>& b = s.bodies;
+  Vec3<Real>* const position = b.position.data();
+  Vec3<Real>* const velocity = b.velocity.data();
+  Vec3<Real>* const force = b.force.data();
+  const Real* const mass = b.mass.data();
+  const std::size_t bonds = s.bonds.size();
+  const auto axis = [&](Real& x, Real& v, const Real& f, const Real& g, const Real& m) {
+    Real a = f / m;
+    if (has_gravity) a += g;
+    if (has_damping) a = damped(a, v, dt, lambda);
+    v += dt * a;
+    x += dt * v;
+  };
+  for (std::uint64_t n = 0; n < count; ++n) {
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      force[i].x = zero;
+      force[i].y = zero;
+      if constexpr (Axes == 3) force[i].z = zero;
+    }
+    if constexpr (Energy) s.energies.elastic = zero;
+    for (std::size_t k = 0; k < bonds; ++k) forces.stretch(k, position, force);
+    if constexpr (Energy) {
+      s.energies.kinetic = s.energies.potential = Real(0);
+      for (std::size_t i = 0; i < b.size(); ++i) account_body(s, i, false);
+    }
+    for (const std::size_t i : bonded.movable) {
+      axis(position[i].x, velocity[i].x, force[i].x, gravity.x, mass[i]);
+      axis(position[i].y, velocity[i].y, force[i].y, gravity.y, mass[i]);
+      if constexpr (Axes == 3) axis(position[i].z, velocity[i].z, force[i].z, gravity.z, mass[i]);
+    }
+    for (const std::size_t i : bonded.driven) drift(position[i], velocity[i], dt);
+    ++s.iteration;
+  }
+  std::fill(b.force.begin(), b.force.end(), Vec3<Real>{});
+}
 
 }  // namespace detail
 
@@ -229,16 +243,19 @@ void run_bonds_alone(SimulationState<Real>& s, std::uint64_t count,
   }
   const auto pick = [](bool on, auto&& next) { on ? next(std::true_type{}) : next(std::false_type{}); };
   pick(s.parts.third_axis, [&](auto third) {
+    constexpr int axes = third ? 3 : 2;
+    if (flow.empty() && s.parts.energy) {
+      // An account of every step: next to it a branch costs nothing.
+      detail::run_leapfrog<axes, true>(s, count, s.parts.damping, s.parts.gravity);
+      return;
+    }
     pick(s.parts.gravity, [&](auto gravity) {
-      pick(s.parts.energy, [&](auto energy) {
-        constexpr int axes = third ? 3 : 2;
-        if (!flow.empty()) {
-          detail::BondsAlone<axes, false, gravity, energy, Real>(s).run_flow(flow, count);
-          return;
-        }
-        pick(s.parts.damping,
-             [&](auto damping) { detail::BondsAlone<axes, damping, gravity, energy, Real>(s).run(count); });
-      });
+      if (!flow.empty()) {
+        detail::run_flow<axes, gravity>(s, flow, count);
+        return;
+      }
+      pick(s.parts.damping,
+           [&](auto damping) { detail::run_leapfrog<axes, false>(s, count, damping, gravity); });
     });
   });
 }

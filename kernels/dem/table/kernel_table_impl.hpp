@@ -46,6 +46,14 @@ ContactPhysics<Real> physics(const KernelState<Real>& s) {
   return {s.kn, s.ks, s.cn, s.cs, s.tan_friction};
 }
 
+// Reads the inputs of a kernel from `in` into the state; returns what lies behind them.  Once a type, and not
+// once a kernel, of which there are many.
+template <RealType Real>
+const Real* read_inputs(const KernelInfo& info, const Real* in, KernelState<Real>& state) {
+  for (const auto f : info.inputs) each_component(state, f, [&](Real& x) { x = *in++; });
+  return in;
+}
+
 // Runs `kernel(state, writer)` over a batch.
 template <RealType Real, class Kernel>
 void run_batch(KernelId id, const Real* in, Real* out, std::uint8_t* threw, std::size_t count,
@@ -54,7 +62,7 @@ void run_batch(KernelId id, const Real* in, Real* out, std::uint8_t* threw, std:
   const std::size_t outputs = info.output_components();
   KernelState<Real> state;
   for (std::size_t i = 0; i < count; ++i) {
-    for (const auto f : info.inputs) each_component(state, f, [&](Real& x) { x = *in++; });
+    in = read_inputs(info, in, state);
     try {
       ResultWriter<Real> writer(out + i * outputs);
       kernel(state, writer);
