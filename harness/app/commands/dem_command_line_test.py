@@ -28,16 +28,25 @@ def run(*words, **more):
 
 
 def kernels(out, *words):
-    code, _, err = run("kernels", *SMALL, "--samples", "1500", "--out", out, *words)
+    code, _, err = run("kernels", *SMALL, "--samples", "150", "--out", out, *words)
     assert code == 0, err
     return (out / "kernels.jsonl").read_bytes()
 
 
 def test_kernel_records_do_not_depend_on_threads_or_shards(tmp_path):
-    one = kernels(tmp_path / "one", "--threads", 1)
-    assert kernels(tmp_path / "two", "--threads", 2) == one
+    # More states than a unit of work has.
+    size = ["--kernels", "rotation", "--types", "float", "--samples", 2500]
+
+    def many(name, *words):
+        out = tmp_path / name
+        code, _, err = run("kernels", *size, "--out", out, *words)
+        assert code == 0, err
+        return (out / "kernels.jsonl").read_bytes()
+
+    one = many("one", "--threads", 1)
+    assert many("two", "--threads", 2) == one
     for i in range(3):
-        kernels(tmp_path / f"s{i}", "--shard", f"{i}/3")
+        many(f"s{i}", "--shard", f"{i}/3")
     code, _, err = run(
         "merge", *(tmp_path / f"s{i}" for i in range(3)), "--out", tmp_path / "all"
     )

@@ -225,6 +225,37 @@ def test_correlation_resumes_and_its_gate_catches_a_worse_run(tmp_path):
     assert code == 2 and "pendulum3.toml:2" in err
 
 
+def test_a_trusted_reference_is_not_run_again(tmp_path):
+    words = ["scene", "correlate", "pendulum3", "--types", "float,double"]
+    words += ["--reference", "long_double", "--until", "1.5", "--out"]
+    told, trusted = tmp_path / "told", tmp_path / "trusted"
+    assert run(*words, told)[0] == 0
+    code, table, err = run(*words, trusted, "--trust-reference")
+    assert code == 0, err
+    assert "not told" in table and "RealHP<4>" not in table
+
+    def rows(of):
+        lines = (of / "correlation.jsonl").read_text().splitlines()
+        found = [json.loads(line) for line in lines]
+        return {row["type"]: row for row in found if row["against"] == "long_double"}
+
+    assert len((trusted / "correlation.jsonl").read_text().splitlines()) == 2
+    for token, row in rows(trusted).items():
+        limit = {"float": "not told", "double": "the end of the run"}[token]
+        known = {"limited_by": limit, "plan": row["plan"]}
+        assert row == rows(told)[token] | known
+    assert not list((trusted / "correlation").glob("*RealHP4*"))
+    # The other plan is not gone on with.
+    code, _, err = run(*words, trusted, "--resume")
+    assert code == 2, err
+    budgets = tmp_path / "budgets"
+    assert run("gate", told, "--budgets", budgets, "--update")[0] == 0
+    code, text, err = run("gate", trusted, "--budgets", budgets)
+    assert code == 0, text + err
+    code, _, err = run("report", trusted, "--out", tmp_path / "page")
+    assert code == 0, err
+
+
 def test_all_parts_record_the_same_energies(tmp_path):
     words = [
         "scene",

@@ -22,6 +22,7 @@ ADDED = [
     (r"^ulpgate scene (run|compare|speed) (?!.*--steps)", " --steps 20"),
     # Less cannot be correlated.
     (r"^ulpgate scene correlate", " --steps 6000"),
+    (r"^ulpgate scene correlate (?!.*--types)", " --types float,double"),
     (r"^ulpgate advise", " --search-seconds 2"),
     (r"^ulpgate work-precision .*kepler", " --steps 64..512"),
     (r"^ulpgate (math|claims) (?!.*--samples)", " --samples 60"),
@@ -31,10 +32,13 @@ REPLACED = [
     (" --exhaustive", ""),
     (" --until 1e11", " --until 40"),
     (" --dt plan:1e-3..1e-12", " --dt plan:1e-3..1e-5"),
-    (" --cases pendulum3 --until 0.1", " --cases pendulum3 --until 0.0002"),
+    (
+        " --cases pendulum3 --until 0.1",
+        " --cases pendulum3 --until 0.0002 --dt 1e-5,1e-5/2",
+    ),
     (
         "advise pendulum3 --error 1e-10 --until 0.1",
-        "advise pendulum3 --error 1e-10 --until 0.02",
+        "advise pendulum3 --error 1e-10 --until 0.002",
     ),
     ("sin,exp,kernel", "sin,exp"),
 ]

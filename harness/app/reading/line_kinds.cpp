@@ -32,7 +32,8 @@ bool is_time(const Json& j) {
   return j.is_number() && j.get<double>() >= 0;
 }
 bool is_limit(const Json& j) {
-  return j == "rounding" || j == "time-stepping" || j == "the reference" || j == "the end of the run";
+  return j == "rounding" || j == "time-stepping" || j == "the reference" || j == "the end of the run" ||
+         j == "not told";
 }
 bool is_correlation_word(const Json& j) {
   return j == "correlation";

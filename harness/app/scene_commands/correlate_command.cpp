@@ -9,15 +9,19 @@ namespace ulpgate::app {
 void add_scene_correlate_command(CLI::App& scene, Action& action) {
   auto o = std::make_shared<SceneOptions>();
   auto reference = std::make_shared<std::string>("mpfr150");
+  auto trust = std::make_shared<bool>(false);
   add_scene_verb(
       scene, action, "correlate",
       "Tell how long the angles of each type stay true to those of a run of more digits, and what limits it",
       {"ulpgate scene correlate pendulum3 --types all --reference mpfr150",
        "ulpgate scene correlate pendulum3 --integrator yoshida8 --series --out Y"},
       o,
-      [o, reference](CLI::App& verb) {
+      [o, reference, trust](CLI::App& verb) {
         add_model_options(verb, *o);
         verb.add_option("--reference", *reference, "the type of the reference run")->capture_default_str();
+        verb.add_flag("--trust-reference", *trust,
+                      "leave out its runs at RealHP<4> and at half the step, most of the time: what limits a "
+                      "type is not told");
         add_integrator_option(verb, *o);
         add_length_options(verb, *o);
         add_threads_option(verb, *o);
@@ -27,11 +31,12 @@ void add_scene_correlate_command(CLI::App& scene, Action& action) {
         add_checkpoint_options(verb, *o, out);
         add_json_option(verb, *o);
       },
-      [o, reference] {
+      [o, reference, trust] {
         (void)type_or_fail(*reference);
-        SceneTask task = make_task(*o, "scene correlate", " against " + *reference);
+        SceneTask task =
+            make_task(*o, "scene correlate", " against " + *reference + (*trust ? ", which is trusted" : ""));
         task.records.series = true;
-        return correlate_scene(task.job, {task.types, *reference, o->json}, task.records);
+        return correlate_scene(task.job, {task.types, *reference, o->json, *trust}, task.records);
       });
 }
 

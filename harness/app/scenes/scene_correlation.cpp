@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "harness/app/shell/files.hpp"
 #include "harness/app/shell/interrupt.hpp"
@@ -59,21 +60,28 @@ SceneJob halved(const SceneJob& job) {
   return half;
 }
 
-std::string limit_of(const Truth& t, const Truth& digits, const Truth& step) {
+// How long the reference itself stays true: beside four times its digits, and beside half its step.
+struct Worth {
+  Truth digits, step;
+};
+
+std::string limit_of(const Truth& t, const std::optional<Worth>& worth) {
   if (t.to_the_end) return "the end of the run";
-  if (!digits.to_the_end && t.t_s >= digits.t_s) return "the reference";
-  return t.t_s < step.t_s ? "rounding" : "time-stepping";
+  if (!worth) return "not told";
+  if (!worth->digits.to_the_end && t.t_s >= worth->digits.t_s) return "the reference";
+  return t.t_s < worth->step.t_s ? "rounding" : "time-stepping";
 }
 
-void print_reference(const SceneJob& job, const std::string& reference, double record_s, const Truth& digits,
-                     const Truth& step) {
+void print_reference(const SceneJob& job, const std::string& reference, double record_s,
+                     const std::optional<Worth>& worth) {
   show(
       "{}: t_s, the time for which angles correlate over {} with the {} run, chunks of {} records of {:g} "
       "s\n",
       job.loaded.scene.name, rule.limit, reference, rule.chunk, record_s);
-  show("{:<18} {:>10} s  against its own RealHP<4>\n", reference, shown(digits));
+  if (!worth) return;
+  show("{:<18} {:>10} s  against its own RealHP<4>\n", reference, shown(worth->digits));
   show("{:<18} {:>10} s  against half its step: beyond it, time-stepping is the limit\n", reference,
-       shown(step));
+       shown(worth->step));
 }
 
 void print_truth(const std::string& token, const Truth& t, const std::string& limit, const FinishedRun& run) {
@@ -132,14 +140,16 @@ Verdict correlate_scene(const SceneJob& job, const CorrelationRequest& c, const 
                           static_cast<double>(std::max<std::uint64_t>(1, reference_run.engine->iteration())) *
                           static_cast<double>(job.record_every);
 
-  // The reference is as good as these: four times its digits, and half its step.
-  const Truth digits = truth_of(
-      reference, run_of(c.reference, dem::Level::reference, job, "_RealHP4").statistics.products, record_s);
-  const Truth step =
-      truth_of(reference, run_of(c.reference, dem::Level::own, halved(job), "_half_step").statistics.products,
-               record_s);
+  std::optional<Worth> worth;
+  if (!c.trust) {
+    const auto beside = [&](dem::Level level, const SceneJob& what, const std::string& suffix) {
+      return truth_of(reference, run_of(c.reference, level, what, suffix).statistics.products, record_s);
+    };
+    worth = {beside(dem::Level::reference, job, "_RealHP4"),
+             beside(dem::Level::own, halved(job), "_half_step")};
+  }
 
-  if (!c.json) print_reference(job, c.reference, record_s, digits, step);
+  if (!c.json) print_reference(job, c.reference, record_s, worth);
   std::string text;
   const auto add = [&](const std::string& type, const std::string& against, const Truth& t,
                        const std::string& limit) {
@@ -160,8 +170,11 @@ Verdict correlate_scene(const SceneJob& job, const CorrelationRequest& c, const 
     write_file(out / "correlation" / fmt::format("{}_{}_{}.csv", job.loaded.scene.name, type, against),
                csv(t, record_s));
   };
-  add(c.reference, "RealHP4", digits, digits.to_the_end ? "the end of the run" : "rounding");
-  add(c.reference, "half_step", step, step.to_the_end ? "the end of the run" : "time-stepping");
+  if (worth) {
+    add(c.reference, "RealHP4", worth->digits, worth->digits.to_the_end ? "the end of the run" : "rounding");
+    add(c.reference, "half_step", worth->step,
+        worth->step.to_the_end ? "the end of the run" : "time-stepping");
+  }
   for (const auto& token : c.types) {
     if (token == c.reference) {
       add_scene_row(reference_run, token);
@@ -170,7 +183,7 @@ Verdict correlate_scene(const SceneJob& job, const CorrelationRequest& c, const 
     const FinishedRun run = run_of(token, dem::Level::own, job, "");
     add_scene_row(run, token);
     const Truth t = truth_of(run.statistics.products, reference, record_s);
-    const std::string limit = limit_of(t, digits, step);
+    const std::string limit = limit_of(t, worth);
     if (!c.json) print_truth(token, t, limit, run);
     add(token, c.reference, t, limit);
   }

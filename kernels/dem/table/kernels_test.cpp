@@ -183,7 +183,8 @@ TEST(Facet, TheNearestPointIsTheProjection) {
   for (const auto& t : facets) {
     int faces = 0;
     for (int i = 0; i < 1000; ++i) {
-      const V p{-3 + 0.7 * (i % 10), -3 + 0.7 * (i / 10 % 10), -1 + 0.3 * (i / 100)};
+      const int hundreds = i / 100;
+      const V p{-3 + 0.7 * (i % 10), -3 + 0.7 * (i / 10 % 10), -1 + 0.3 * hundreds};
       const V q = nearest_on_facet(t, p);
       for (const V& corner : {t.a, t.b, t.c}) EXPECT_LE(dot(p - q, corner - q), 1e-13) << i;
       const V normal = cross(t.b - t.a, t.c - t.a);

@@ -33,7 +33,7 @@ _PAPER = " Diamonds: published, %s (the end of the chunk, 0.05 s after its start
 
 
 # A face other than that of its step.
-_FACES = {"time-stepping": "white", "the reference": "0.8"}
+_FACES = {"time-stepping": "white", "the reference": "0.8", "not told": "0.5"}
 
 
 def by_scene_and_variant(rows):
@@ -103,6 +103,8 @@ def _handles(steps, rows, shown, with_paper):
     handles.append(marker_handle("time-stepping", face="white"))
     if any(row["limited_by"] == "the reference" for row in shown):
         handles.append(marker_handle("digits of the reference", face="0.8"))
+    if any(row["limited_by"] == "not told" for row in shown):
+        handles.append(marker_handle("not told by what", face="0.5"))
     if any(row["to_the_end"] for row in shown):
         label = "at least (end of the run)"
         point = marker_handle(label, face="none")

@@ -13,6 +13,7 @@ _LETTERS = {
     "time-stepping": "t",
     "the reference": "d",
     "the end of the run": "e",
+    "not told": "",
 }
 _AGAINST = {OWN_REFERENCE: "its own RealHP<4>", HALF_STEP: "half its step"}
 
@@ -42,7 +43,7 @@ def duration_text(row):
     """A duration with the letter of what limits it; `>=` before a lower bound, which only the end of the run limits."""
     if row["to_the_end"]:
         return f">= {row['t_s']:.2f} e"
-    return f"{row['t_s']:.2f} {_LETTERS[row['limited_by']]}"
+    return f"{row['t_s']:.2f} {_LETTERS[row['limited_by']]}".rstrip()
 
 
 def pendulum_divergence(pendulum):
