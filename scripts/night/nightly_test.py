@@ -34,7 +34,7 @@ NIGHT = [
     ULPGATE,
 ]
 # How many nights are killed; the long tier asks for more.
-KILLS = int(os.environ.get("ULPGATE_NIGHT_KILLS", "2"))
+KILLS = int(os.environ.get("ULPGATE_NIGHT_KILLS", "1"))
 
 
 def night(out, *words, **more):

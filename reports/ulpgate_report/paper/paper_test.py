@@ -241,10 +241,14 @@ def test_what_was_changed_by_hand_is_found(paper, tmp_path, capsys, name, change
     assert "files are what the records give" not in said.out
 
 
-def test_other_records_are_found(paper, tmp_path, capsys):
-    runs, out = paper
-    other = tmp_path / "runs"
-    shutil.copytree(runs, other)
+def test_other_records_are_found(tmp_path, capsys):
+    """Of a paper of one function, which is made twice."""
+    other, out = tmp_path / "runs", tmp_path / "out"
+    context = sample_records.context(["sin"], sample_records.TYPES[:2], ["uniform"])
+    rows = sample_records.math_records(context, sample_records.TYPES[:2])
+    timing = sample_records.timing_records(context)
+    sample_records.write(other / "math", context, rows, timing)
+    assert cli.main([str(other), "--out", str(out)]) == 0
     file = other / "math" / "timing.jsonl"
     lines = file.read_text().splitlines()
     row = json.loads(lines[0])
