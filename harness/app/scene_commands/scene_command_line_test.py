@@ -25,11 +25,15 @@ OPTIONS = {
     "explain": MODEL | STEPS,
     "compare": MODEL | LENGTH | RECORD | {"--own-constants"},
     "ladder": MODEL,
-    "correlate": MODEL | LENGTH | RECORD | CHECKPOINTS | {"--reference"},
+    "correlate": MODEL
+    | LENGTH
+    | RECORD
+    | CHECKPOINTS
+    | {"--reference", "--trust-reference"},
     "speed": MODEL | LENGTH | {"--out", "--repeats"},
 }
 EVERY = sorted(set().union(*OPTIONS.values()) - {"--help"})
-FLAGS = "--allow-large --all-parts --json --record --series --vtk --overwrite --resume --own-constants --collisions"
+FLAGS = "--allow-large --all-parts --json --record --series --vtk --overwrite --resume --own-constants --collisions --trust-reference"
 
 
 @pytest.mark.parametrize("verb", VERBS)
