@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import time
 
@@ -94,8 +95,18 @@ def interrupted(out, library, *signals):
     """A run that hangs in its second half, ended by signals; returns its exit code and what it said on stderr."""
     env = dict(os.environ) | {"LD_PRELOAD": str(library("hang"))}
     words = [*SIN_RUN, "--samples", "4000", "--threads", "1", "--out", str(out)]
+
+    def hears():
+        # What ignores a signal, as all below nohup do SIGHUP, leaves that to its children.
+        for s in signals:
+            signal.signal(s, signal.SIG_DFL)
+
     process = subprocess.Popen(
-        program.command(*words), env=env, stderr=subprocess.PIPE, text=True
+        program.command(*words),
+        env=env,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=hears,
     )
     log = out / "units/log.txt"
     for _ in range(600):
