@@ -33,7 +33,7 @@ NIGHT = [
     "--ulpgate",
     ULPGATE,
 ]
-# How many nights are killed; the long tier asks for more.
+# How many nights are killed; whoever wants more asks for them.
 KILLS = int(os.environ.get("ULPGATE_NIGHT_KILLS", "1"))
 
 

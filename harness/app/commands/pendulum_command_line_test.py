@@ -248,6 +248,9 @@ def test_a_trusted_reference_is_not_run_again(tmp_path):
     # The other plan is not gone on with.
     code, _, err = run(*words, trusted, "--resume")
     assert code == 2, err
+    alone = ["scene", "correlate", "pendulum3", "--types", "double", "--reference"]
+    code, _, err = run(*alone, "double", "--until", "1.5", "--trust-reference")
+    assert code == 3 and "nothing to correlate" in err
     budgets = tmp_path / "budgets"
     assert run("gate", told, "--budgets", budgets, "--update")[0] == 0
     code, text, err = run("gate", trusted, "--budgets", budgets)

@@ -19,9 +19,10 @@ void add_scene_correlate_command(CLI::App& scene, Action& action) {
       [o, reference, trust](CLI::App& verb) {
         add_model_options(verb, *o);
         verb.add_option("--reference", *reference, "the type of the reference run")->capture_default_str();
-        verb.add_flag("--trust-reference", *trust,
-                      "leave out its runs at RealHP<4> and at half the step, most of the time: what limits a "
-                      "type is not told");
+        verb.add_flag(
+            "--trust-reference", *trust,
+            "leave out its runs at RealHP<4> and at half the step, which take longest; what limits a "
+            "type is then not told");
         add_integrator_option(verb, *o);
         add_length_options(verb, *o);
         add_threads_option(verb, *o);

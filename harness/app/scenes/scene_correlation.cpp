@@ -111,6 +111,10 @@ Verdict correlate_scene(const SceneJob& job, const CorrelationRequest& c, const 
         fmt::format("{}: {} records are fewer than the {} that are correlated at a time: nothing to "
                     "measure; take more steps",
                     job.loaded.scene.name, planned, rule.chunk));
+  if (c.trust && std::ranges::all_of(c.types, [&](const auto& token) { return token == c.reference; }))
+    throw Failure(Standing::nothing_measured,
+                  fmt::format("{}: {} is trusted, and no other type is asked for: nothing to correlate",
+                              job.loaded.scene.name, c.reference));
   const auto stop_if_interrupted = [&] {
     if (interrupted())
       throw Failure(Standing::incomplete, out.empty() ? "interrupted" : "interrupted; go on with --resume");

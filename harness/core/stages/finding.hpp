@@ -1,16 +1,26 @@
 // Finding: what a stage of the reference knows of one part of one result.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "harness/core/stages/native_bits.hpp"
 #include "reference/oracle/oracle.hpp"
+#include "reference/types/real_types.hpp"
 #include "reference/ulp/ulp.hpp"
 
 namespace ulpgate {
 
 inline constexpr double smallest_error = std::numeric_limits<double>::denorm_min();
+
+// What RealHP<4> is off by, in ulp of Real.
+template <RealType Real>
+inline constexpr double full_slack = power_of_two(
+    std::max(-1000, std::numeric_limits<Real>::digits + 2 - std::numeric_limits<RealHP<4, Real>>::digits));
+// Of an error like this RealHP<4> may see no more than that it is one.
+inline constexpr double unseen_error = 0x1p-60;
 
 // A mismatch, or a finite result whose error lies in [least, greatest] ULP.  A stage that does not know the
 // outcome, or whether the result is the correctly rounded one, gives no finding at all.

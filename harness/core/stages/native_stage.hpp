@@ -98,7 +98,7 @@ class NativeStage {
     const double own_slack = bound * unit + error * 0x1p-48;
     const bool inexact = !exact && error > own_slack;
     // Of a pair next to a number of Real a bound may say more than RealHP<4> has bits for.
-    const double slack = exact ? 0 : std::same_as<W, DoubleDouble> ? own_slack + full_slack : own_slack;
+    const double slack = exact ? 0 : std::same_as<W, DoubleDouble> ? own_slack + full_slack<Real> : own_slack;
     double least = error - slack;
     double greatest = error + slack;
     // Next to a power of two the exact value may lie in the other binade, where the spacing is half or
@@ -113,7 +113,7 @@ class NativeStage {
         greatest = error + 2 * slack;
       }
     }
-    if (inexact && std::same_as<W, DoubleDouble> && greatest < unseen) {
+    if (inexact && std::same_as<W, DoubleDouble> && greatest < unseen_error) {
       least = smallest_error;
     } else if (least <= 0 && !exact) {
       // Too close to tell: exact or not is known by other means.
@@ -255,10 +255,6 @@ class NativeStage {
     return true;
   }
 
-  // What RealHP<4> is off by, in ulp of Real, and an error of which it may see no more than that it is one.
-  static constexpr double full_slack = power_of_two(
-      std::max(-1000, std::numeric_limits<Real>::digits + 2 - std::numeric_limits<RealHP<4, Real>>::digits));
-  static constexpr double unseen = 0x1p-60;
   // One ulp of W in ulp of Real, with a margin.
   static constexpr double unit =
       power_of_two(std::numeric_limits<Real>::digits - significand_bits<W>) * (1 + 0x1p-20);

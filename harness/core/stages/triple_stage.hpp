@@ -92,7 +92,7 @@ class TripleStage {
       if (digits == 113 && !inexact) return false;
       least = inexact ? smallest_error : 0;
     }
-    if (greatest < unseen) least = std::min(least, smallest_error);
+    if (greatest < unseen_error) least = std::min(least, smallest_error);
     finding = {Outcome::finite, least, greatest, 0, true, true};
     if (greatest < 0.5) return true;
     if (!(least > 0.5)) return false;
@@ -107,10 +107,7 @@ class TripleStage {
   // One ulp of a triple in ulp of Real, with a margin, and what the difference of two of them is off by, and
   // RealHP<4> beside it.
   static constexpr double unit = power_of_two(digits - triple_double_bits) * (1 + 0x1p-20);
-  static constexpr double least_slack =
-      power_of_two(digits - 157) + power_of_two(digits + 2 - std::numeric_limits<RealHP<4, Real>>::digits);
-  // Of an error like this RealHP<4> may see no more than that it is one.
-  static constexpr double unseen = 0x1p-60;
+  static constexpr double least_slack = power_of_two(digits - 157) + full_slack<Real>;
 
   static constexpr int greatest_exponent = 16383;
   static constexpr int no_exponent = -100000;
