@@ -11,21 +11,16 @@
 #include "harness/app/shell/progress.hpp"
 #include "harness/core/trend/interleaved_order.hpp"
 #include "harness/core/watch/heartbeat.hpp"
+#include "harness/core/watch/stopwatch.hpp"
 
 namespace ulpgate::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // A sample of less is of too few ticks.
 constexpr double least_sample_s = 2e-3;
 constexpr int baseline_operations = 400'000;
 constexpr auto keep_interval = std::chrono::seconds(5);
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class TimedRounds {
  public:

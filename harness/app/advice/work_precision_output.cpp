@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "harness/app/reading/json_fields.hpp"
 #include "harness/app/shell/files.hpp"
 #include "harness/app/terminal/terminal.hpp"
 #include "harness/core/subject/registry.hpp"
@@ -14,10 +15,6 @@
 namespace ulpgate::app {
 
 namespace {
-
-Json number_or_null(const std::optional<double>& x) {
-  return x ? Json(*x) : Json(nullptr);
-}
 
 Json setting_json(const char* what, const WorkSetting& s) {
   Json j = {{"what", what}, {"subject", to_string(s.subject)}, {"name", s.name}, {"type", s.type}};

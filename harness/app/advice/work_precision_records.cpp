@@ -14,7 +14,6 @@ namespace ulpgate::app {
 namespace {
 
 using namespace field;
-constexpr auto optional = Presence::optional;
 
 bool is_what(const Json& j) {
   return j == "work_precision";

@@ -170,13 +170,13 @@ Budget parse_row(const std::string& file, const toml::table& row, std::string_vi
   return budget;
 }
 
-std::string number(double x) {
+std::string toml_value(double x) {
   return x == std::floor(x) && x < 1e15 ? fmt::format("{:.1f}", x) : fmt::format("{}", x);
 }
-std::string number(std::uint64_t n) {
+std::string toml_value(std::uint64_t n) {
   return fmt::format("{}", n);
 }
-std::string number(const std::map<int, std::uint64_t>& counts) {
+std::string toml_value(const std::map<int, std::uint64_t>& counts) {
   std::string text = "{";
   const char* separator = " ";
   for (const auto& [e, count] : counts) {
@@ -186,7 +186,7 @@ std::string number(const std::map<int, std::uint64_t>& counts) {
   return text + " }";
 }
 
-std::string number(const std::string& text) {
+std::string toml_value(const std::string& text) {
   return toml_quoted(text);
 }
 
@@ -198,7 +198,7 @@ std::string figures_text(std::string_view key, const Map& figures) {
   const char* separator = " ";
   for (const auto& [stratum, figure] : figures) {
     const bool bare = stratum.find('.') == std::string::npos;
-    text += fmt::format("{}{} = {}", separator, bare ? stratum : toml_quoted(stratum), number(figure));
+    text += fmt::format("{}{} = {}", separator, bare ? stratum : toml_quoted(stratum), toml_value(figure));
     separator = ", ";
   }
   return text + " }\n";

@@ -10,7 +10,7 @@ namespace ulpgate::app {
 
 namespace {
 
-constexpr std::size_t shown = 20;
+constexpr std::size_t most_findings = 20;
 // GitHub refuses a step's summary above 1 MiB as a whole.
 constexpr std::size_t most_bytes = 1000000;
 // A state of a kernel in 500 bits is long; whoever wants all of it has the command.
@@ -90,8 +90,10 @@ std::string markdown_report(const std::vector<GateResult>& results) {
     for (const auto& remark : r.remarks)
       text += fmt::format("* {}: {}\n", plain(r.records_directory), plain(remark));
   text += "\n";
-  for (std::size_t i = 0; i < std::min(shown, findings.size()); ++i) text += finding_text(i + 1, findings[i]);
-  if (findings.size() > shown) text += fmt::format("... and {} more.\n\n", findings.size() - shown);
+  for (std::size_t i = 0; i < std::min(most_findings, findings.size()); ++i)
+    text += finding_text(i + 1, findings[i]);
+  if (findings.size() > most_findings)
+    text += fmt::format("... and {} more.\n\n", findings.size() - most_findings);
   text += counts_text(results) + "\n";
   for (const auto& r : results)
     if (!r.platform.empty()) text += fmt::format("* {}: {}\n", plain(r.budgets_directory), plain(r.platform));

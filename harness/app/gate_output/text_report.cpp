@@ -6,6 +6,7 @@
 
 #include "harness/app/gate_output/output_text.hpp"
 #include "harness/app/gate_output/outputs.hpp"
+#include "harness/app/reading/json_fields.hpp"
 #include "harness/app/terminal/terminal.hpp"
 
 namespace ulpgate::app {
@@ -58,10 +59,6 @@ std::vector<std::vector<std::size_t>> shown_together(const std::vector<PlacedFin
     }
   }
   return groups;
-}
-
-Json number_or_null(const std::optional<double>& x) {
-  return x ? Json(*x) : Json(nullptr);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ std::string build_id_of(const dl_phdr_info& object) {
   for (int i = 0; i < object.dlpi_phnum; ++i) {
     const auto& segment = object.dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): dl_iterate_phdr gives addresses as numbers
     const auto* note = reinterpret_cast<const char*>(object.dlpi_addr + segment.p_vaddr);
     const char* end = note + segment.p_memsz;
     const auto padded = [](std::size_t n) { return (n + 3) & ~std::size_t{3}; };
@@ -63,7 +64,7 @@ struct Object {
 };
 
 // By base address.
-std::map<std::uintptr_t, Object> objects() {
+std::map<std::uintptr_t, Object> mapped_objects() {
   std::map<std::uintptr_t, Object> all;
   dl_iterate_phdr(
       [](dl_phdr_info* object, std::size_t, void* to) {
@@ -118,7 +119,7 @@ std::vector<Variant> variants() {
 }  // namespace
 
 std::map<std::string, LoadedLibrary> loaded_libraries() {
-  const auto all = objects();
+  const auto all = mapped_objects();
   std::map<std::string, LoadedLibrary> libraries;
   for (const auto& [base, object] : all)
     if (decides(object.file)) libraries[object.file] = object.library;
@@ -133,7 +134,7 @@ std::map<std::string, LoadedLibrary> loaded_libraries() {
 }
 
 std::string function_variants() {
-  const auto all = objects();
+  const auto all = mapped_objects();
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto mix = [&](std::string_view text) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;

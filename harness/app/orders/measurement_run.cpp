@@ -13,17 +13,12 @@
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/shell/progress.hpp"
 #include "harness/core/watch/heartbeat.hpp"
+#include "harness/core/watch/stopwatch.hpp"
 #include "reference/types/mpfr_value.hpp"
 
 namespace ulpgate::app {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // What a killed process may lose of a measurement whose pieces may be of any size.
 constexpr double piece_s = 0.5;

@@ -6,16 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/app/reading/json_fields.hpp"
 #include "harness/app/shell/failure.hpp"
 #include "harness/core/orders/order_judgement.hpp"
 
 namespace ulpgate::app {
 
 namespace {
-
-Json number_or_null(const std::optional<double>& x) {
-  return x ? Json(*x) : Json(nullptr);
-}
 
 // A number, or a word for what is none.
 Json error_or_word(double x) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,11 +52,19 @@ inline constexpr FieldKind objects = {"a list of objects", are_objects};
 
 enum class Presence { required, optional };
 
+// As it stands in tables of fields.
+inline constexpr auto optional = Presence::optional;
+
 struct Field {
   std::string_view key;
   FieldKind kind;
   Presence presence = Presence::required;
 };
+
+// What a field of the kind `number` holds of it.
+[[nodiscard]] inline Json number_or_null(const std::optional<double>& x) {
+  return x ? Json(*x) : Json(nullptr);
+}
 
 enum class UnknownKeys { refuse, ignore };
 

@@ -14,7 +14,6 @@ namespace ulpgate::app {
 namespace {
 
 using namespace field;
-constexpr auto optional = Presence::optional;
 
 bool is_dt(const Json& j) {
   return field::word.accepts(j) || field::positive.accepts(j);

@@ -29,7 +29,6 @@ constexpr FieldKind description = {"a text or an object", is_description};
 
 // Those that decide how records are read; what else stands there describes machine and subjects.
 const std::vector<Field>& context_fields() {
-  constexpr auto optional = Presence::optional;
   static const std::vector<Field> fields = {{"tool", field::object},
                                             {"compiler", description},
                                             {"libraries", field::object},

@@ -18,12 +18,11 @@
 #include "harness/app/shell/interrupt.hpp"
 #include "harness/app/store/checkpoint_text.hpp"
 #include "harness/core/stages/finding.hpp"
+#include "harness/core/watch/stopwatch.hpp"
 
 namespace ulpgate::app {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int report_tag = 1;
 constexpr int order_tag = 2;
@@ -35,10 +34,6 @@ constexpr char unit = 'u';          // line of a finished unit, with its checksu
 constexpr char disagreement = 'd';  // message of a ReferenceDisagreement
 constexpr char failed = 'f';        // message of another failure in a unit
 constexpr char bye = 'b';           // leaves; message of the failure that keeps it from working, or nothing
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // MPI's own waiting keeps a core busy, which somebody else could use.
 void rest(int& idle) {

@@ -18,17 +18,12 @@
 #include "harness/app/shell/progress.hpp"
 #include "harness/core/stages/finding.hpp"
 #include "harness/core/watch/heartbeat.hpp"
+#include "harness/core/watch/stopwatch.hpp"
 #include "harness/foreign/foreign_failure.hpp"
 
 namespace ulpgate::app {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Merges what the units give, keeps them and shows the progress; the first failure ends the run.
 class Collector {

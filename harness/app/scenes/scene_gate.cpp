@@ -27,7 +27,6 @@ bool is_place(const Json& j) {
 }
 constexpr FieldKind collision_word = {"\"collision\" or \"ledger\"", is_collision_word};
 constexpr FieldKind place = {"a list of two bodies and a step, or null", is_place};
-constexpr auto optional = Presence::optional;
 constexpr Field collision_fields[] = {{"what", collision_word},
                                       {"scene", field::name},
                                       {"type", field::word},

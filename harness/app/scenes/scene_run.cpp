@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "harness/app/reading/json_fields.hpp"
 #include "harness/app/scenes/scene_output.hpp"
 #include "harness/app/scenes/watched_steps.hpp"
 #include "harness/app/shell/files.hpp"
@@ -156,7 +157,6 @@ Json scene_row(const FinishedRun& run, const std::string& token, const SceneJob&
   Json left_out = Json::array();
   for (const auto& part : engine.explain().left_out)
     left_out.push_back({{"part", part.part}, {"why", part.why}});
-  const auto number_or_null = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
   Json j;
   j["scene"] = job.loaded.scene.name;
   j["type"] = token;

@@ -14,7 +14,7 @@ namespace ulpgate::app {
 
 namespace {
 
-std::atomic<bool> flag{false};
+std::atomic<bool> asked_to_stop{false};
 std::atomic<std::int64_t> first_ms{-1};
 
 std::int64_t now_ms() {
@@ -24,7 +24,7 @@ std::int64_t now_ms() {
 }
 
 void on_interrupt(int) {
-  flag.store(true, std::memory_order_relaxed);
+  asked_to_stop.store(true, std::memory_order_relaxed);
   // A terminal and the program that started this one may both pass one Ctrl-C on.
   constexpr std::int64_t same_ms = 500;
   const std::int64_t now = now_ms();
@@ -50,21 +50,21 @@ void set_hangup() {
 }  // namespace
 
 bool interrupted() {
-  return flag.load(std::memory_order_relaxed);
+  return asked_to_stop.load(std::memory_order_relaxed);
 }
 
 const std::atomic<bool>& interrupt_flag() {
-  return flag;
+  return asked_to_stop;
 }
 
 void interrupt() {
-  flag.store(true, std::memory_order_relaxed);
+  asked_to_stop.store(true, std::memory_order_relaxed);
 }
 
 InterruptGuard::InterruptGuard()
     : int_(std::signal(SIGINT, on_interrupt)), term_(std::signal(SIGTERM, on_interrupt)) {
   if (guards++ == 0) set_hangup();
-  flag = false;
+  asked_to_stop = false;
   first_ms = -1;
 }
 

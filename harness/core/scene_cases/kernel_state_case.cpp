@@ -19,7 +19,7 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-WideReal power_of_two(long exponent) {
+WideReal wide_power_of_two(long exponent) {
   WideReal x(1);
   mpfr_set_ui_2exp(x.backend().data(), 1, exponent, MPFR_RNDN);
   return x;
@@ -110,13 +110,14 @@ StressRow judge_part(const KernelStateCase& c, const KernelPoint& p, const Float
 
 scenes::Evaluator<WideReal> state_names(const FloatFormat& format, int scan) {
   scenes::Evaluator<WideReal> names;
-  names.define("u", power_of_two(-format.precision));
-  names.define("huge", power_of_two(format.exponent_max) * (2 - power_of_two(1 - format.precision)));
-  names.define("least", power_of_two(format.exponent_least()));
-  names.define("normal", power_of_two(format.exponent_min));
-  names.define("small", power_of_two(format.exponent_min / 2));
-  names.define("large", power_of_two(format.exponent_max / 2));
-  names.define("s", power_of_two(scan));
+  names.define("u", wide_power_of_two(-format.precision));
+  names.define("huge",
+               wide_power_of_two(format.exponent_max) * (2 - wide_power_of_two(1 - format.precision)));
+  names.define("least", wide_power_of_two(format.exponent_least()));
+  names.define("normal", wide_power_of_two(format.exponent_min));
+  names.define("small", wide_power_of_two(format.exponent_min / 2));
+  names.define("large", wide_power_of_two(format.exponent_max / 2));
+  names.define("s", wide_power_of_two(scan));
   return names;
 }
 

@@ -11,7 +11,7 @@
 namespace ulpgate {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // A curve whose error at level k, a whole number or quarters beyond, is C 2^(-p k) + floor, and whose time
 // doubles with every level.
@@ -25,7 +25,7 @@ struct Made {
   std::vector<MadeCurve> curves;
   std::vector<int> looked = std::vector<int>(curves.size(), 0);
   double spent_s = 0;
-  double search_s = inf;
+  double search_s = infinite;
   std::map<int, double> disturbed = {};  // a quarter's run takes so many times as long
 
   AdviceSearch search(double error, double most_s, int levels = 30) {
@@ -123,7 +123,7 @@ TEST(AdviceSearch, ADisturbedRunHidesNoCheaperOne) {
   for (const int quarter : {36, 34, 33}) {
     Made made{{{1, 1, 0, 1}}};
     made.disturbed[quarter] = 2.5;
-    const AdviceSearch search = made.search(error, inf);
+    const AdviceSearch search = made.search(error, infinite);
     EXPECT_TRUE(std::ranges::any_of(search.points, [](const auto& p) { return p.quarter == 33 && !p.cut; }))
         << "quarter " << quarter << " disturbed";
   }
@@ -178,7 +178,7 @@ TEST(AdviceSearch, AnUncertainTruthCounts) {
   point.wanted = AdvicePoint::Wanted::on_the_way;
   EXPECT_GT(point.certain_error(), 1e-3);
   point.outcome.failure = WorkFailure::refused;
-  EXPECT_EQ(point.certain_error(), inf);
+  EXPECT_EQ(point.certain_error(), infinite);
 }
 
 }  // namespace

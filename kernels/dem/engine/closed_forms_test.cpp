@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "kernels/dem/engine/engine.hpp"
 #include "kernels/dem/testing/scenes.hpp"
@@ -11,8 +12,6 @@ namespace {
 
 using scenes::Scene;
 using testing::load;
-
-const double pi = std::acos(-1.0);
 
 std::unique_ptr<DemEngine> run(const Scene& scene, const std::vector<std::string>& overrides, double until) {
   auto e = make_engine("double", Level::own, testing::changed(scene, overrides), {});
@@ -33,9 +32,9 @@ double velocity(const DemEngine& e, std::size_t body, std::size_t axis) {
 // would pull, the ball comes out a little faster.
 double restitution(double en, double tc) {
   const double beta = -std::log(en) / tc;
-  const double omega = pi / tc;
+  const double omega = std::numbers::pi / tc;
   // Force k u + c u' = 0 at t = (pi - 2 atan(beta/omega)...)/omega; from there the ball flies free.
-  const double angle = pi - std::atan2(2 * beta * omega, omega * omega - beta * beta);
+  const double angle = std::numbers::pi - std::atan2(2 * beta * omega, omega * omega - beta * beta);
   const double t = angle / omega;
   return -std::exp(-beta * t) * (std::cos(omega * t) - beta / omega * std::sin(omega * t));
 }
@@ -77,7 +76,7 @@ TEST(Collision, EnergyAccountClosesWithTheSquareOfTheStep) {
 }
 
 TEST(Rolling, StopsSlidingWhenAndWhereItMust) {
-  const double mu = std::tan(20 * pi / 180);
+  const double mu = std::tan(20 * std::numbers::pi / 180);
   const double start = 2 / (7 * mu * 9.81);
   const auto before = run(load("rolling"), {}, 0.9 * start);
   EXPECT_NEAR(velocity(*before, 0, 0), 1 - mu * 9.81 * 0.9 * start, 2e-4) << "still sliding: v = v0 - mu g t";
@@ -249,11 +248,11 @@ TEST(CriticalStep, OfWavesIsThatOfTheMassesOrNone) {
     return e->critical_step(name);
   };
   const double by_density = 0.01 * std::sqrt(2600 / 1e7);
-  const double rayleigh_over_p = pi * std::sqrt(2.0) / 0.8766;
+  const double rayleigh_over_p = std::numbers::pi * std::sqrt(2.0) / 0.8766;
   for (const char* law : {"frictional", "cohesive", "hertz_mindlin"}) {
     EXPECT_NEAR(rule("", "", law, "p_wave").step_s, by_density, 1e-12 * by_density) << law;
     const CriticalStep light = rule("", "mass = 1e-6\n", law, "p_wave");
-    const double density = 1e-6 / (4.0 / 3 * pi * 1e-6);
+    const double density = 1e-6 / (4.0 / 3 * std::numbers::pi * 1e-6);
     EXPECT_NEAR(light.step_s, 0.01 * std::sqrt(density / 1e7), 1e-12 * light.step_s) << law;
     EXPECT_NEAR(rule("", "mass = 1e-6\n", law, "rayleigh").step_s, rayleigh_over_p * light.step_s,
                 1e-12 * light.step_s)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "kernels/dem/engine/engine.hpp"
 #include "kernels/dem/step/archive.hpp"
@@ -16,8 +17,6 @@ using testing::busy;
 using testing::changed;
 using testing::load;
 using testing::read;
-
-const double pi = std::acos(-1.0);
 
 std::unique_ptr<DemEngine> with_ledger(const Scene& scene, int threads = 1,
                                        std::string_view token = "double") {
@@ -77,8 +76,8 @@ struct Rebound {
 };
 Rebound rebound_without_tension(double zeta, double tc) {
   const double w = std::sqrt(1 - zeta * zeta);
-  const double angle = pi - std::atan(2 * zeta * w / (1 - 2 * zeta * zeta));
-  const double omega = pi / tc;
+  const double angle = std::numbers::pi - std::atan(2 * zeta * w / (1 - 2 * zeta * zeta));
+  const double omega = std::numbers::pi / tc;
   const double decay = std::exp(-zeta / w * angle);
   const double overlap = decay * std::sin(angle) / omega;  // for a closing speed of 1
   return {decay, angle / omega + overlap / decay};
@@ -86,7 +85,7 @@ Rebound rebound_without_tension(double zeta, double tc) {
 
 TEST(CollisionLedger, RestitutionWithoutTensionOfTheClosedForm) {
   const double zeta = 0.3;
-  const double with_tension = std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta));
+  const double with_tension = std::exp(-std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta));
   EXPECT_NEAR(with_tension, 0.3723, 5e-5);
   const Rebound exact = rebound_without_tension(zeta, 1e-3);
   EXPECT_NEAR(exact.restitution, 0.4510, 5e-5);
@@ -142,7 +141,7 @@ until = 1
     ASSERT_EQ(list.size(), 1U);
     const CollisionRecord& r = list.front();
     const double z2 = r.omega_dt * r.omega_dt;
-    EXPECT_NEAR(r.omega_dt, pi / 10.5, 1e-12);
+    EXPECT_NEAR(r.omega_dt, std::numbers::pi / 10.5, 1e-12);
     const double s = static_cast<double>(r.begin_step) - r.begin_s / 1e-3;
     const double t = r.end_s / 1e-3 - static_cast<double>(r.end_step - 1);
     const double ratio = (1 - z2 * s * (1 - s)) / (1 - z2 * t * (1 - t));

@@ -66,8 +66,8 @@ position = [)" +
               "[run]\ndt = 4e-6\nuntil = 1\ngravity = [0, -9.81, 0]\nrecord = [\"energy\"]\n");
 }
 
-std::unique_ptr<DemEngine> engine(const scenes::Scene& scene, EngineOptions options = {},
-                                  std::string_view token = "double") {
+std::unique_ptr<DemEngine> engine_of(const scenes::Scene& scene, EngineOptions options = {},
+                                     std::string_view token = "double") {
   return make_engine(token, Level::own, scene, options);
 }
 
@@ -93,10 +93,10 @@ TEST(SharedEdges, TheForceOfAPlaneDoesNotDependOnItsCut) {
                                   "0.25, 0.0099, 0", "1e-9, 0.0099, 2e-9", "0.3, 0.0099, -0.2"}) {
     for (const char* token : {"double", "float"}) {
       const Ball ball{place, "0.1, -0.2, 0.05"};
-      const auto plane = engine(ball_on(wall, ball), {}, token);
+      const auto plane = engine_of(ball_on(wall, ball), {}, token);
       plane->step(3);
       for (const std::string& floor : {two, other_two, four, many(4), many(4) + many(4)}) {
-        const auto cut = engine(ball_on(floor, ball), {}, token);
+        const auto cut = engine_of(ball_on(floor, ball), {}, token);
         cut->step(3);
         EXPECT_EQ(cut->contacts().size(), 1U) << place;
         EXPECT_LE(difference(*cut, *plane), token == std::string("float") ? 4e-7 : 1e-15)
@@ -124,14 +124,14 @@ TEST(SharedEdges, TheForceOfATiltedPlaneDoesNotDependOnItsCut) {
     const auto text = [](double value) { return std::to_string(value); };
     const Ball ball{text(x) + ", \"" + text(y) + "-0.6*0.0099\", \"0.75*(" + text(y) + ")+0.8*0.0099\"",
                     "0.1, -0.2, 0.05"};
-    const auto plane = engine(ball_on(one, ball));
+    const auto plane = engine_of(ball_on(one, ball));
     plane->step(1);
     for (const std::string& floor : cuts) {
-      const auto cut = engine(ball_on(floor, ball));
+      const auto cut = engine_of(ball_on(floor, ball));
       cut->step(1);
       EXPECT_EQ(cut->contacts().size(), 1U) << x << ' ' << y;
       EXPECT_LE(difference(*cut, *plane), 1e-12) << x << ' ' << y;
-      const auto narrow = engine(ball_on(floor, ball), {}, "float");
+      const auto narrow = engine_of(ball_on(floor, ball), {}, "float");
       narrow->step(1);
       EXPECT_EQ(narrow->contacts().size(), 1U) << x << ' ' << y;
     }
@@ -140,9 +140,9 @@ TEST(SharedEdges, TheForceOfATiltedPlaneDoesNotDependOnItsCut) {
 
 TEST(SharedEdges, EachFacetPushesOnItsOwnWhereTheSceneSaysSo) {
   const Ball ball{"0, 0.0099, 0"};
-  const auto once = engine(ball_on(four, ball));
-  const auto each = engine(ball_on(four, ball, "frictional", "shared_edges = \"each\"\n"));
-  const auto changed_to_each = engine(changed(ball_on(four, ball), {"shared_edges=each"}), {true, 1});
+  const auto once = engine_of(ball_on(four, ball));
+  const auto each = engine_of(ball_on(four, ball, "frictional", "shared_edges = \"each\"\n"));
+  const auto changed_to_each = engine_of(changed(ball_on(four, ball), {"shared_edges=each"}), {true, 1});
   for (auto* e : {once.get(), each.get(), changed_to_each.get()}) e->step(1);
   EXPECT_EQ(once->contacts().size(), 1U);
   EXPECT_EQ(each->contacts().size(), 4U);
@@ -155,7 +155,7 @@ TEST(SharedEdges, EachFacetPushesOnItsOwnWhereTheSceneSaysSo) {
 
 TEST(SharedEdges, ConvexEdgesPushOnceAndConcaveOnesFromBothFaces) {
   const auto contacts = [](const std::string& floor, const std::string& place) {
-    const auto e = engine(ball_on(floor, {place}));
+    const auto e = engine_of(ball_on(floor, {place}));
     e->step(1);
     return e->contacts();
   };
@@ -176,8 +176,8 @@ TEST(SharedEdges, ConvexEdgesPushOnceAndConcaveOnesFromBothFaces) {
 TEST(SharedEdges, FacetsWithoutACommonCornerActOnTheirOwn) {
   const std::string apart = facet(p, q, r) + facet("-0.5, 0, \"-0.5+1e-12\"", "0.5, 0, \"0.5+1e-12\"", s);
   const Ball ball{"0.1, 0.0099, 0.1", "0.1, -0.2, 0.05"};
-  const auto once = engine(ball_on(apart, ball));
-  const auto each = engine(ball_on(apart, ball, "frictional", "shared_edges = \"each\"\n"));
+  const auto once = engine_of(ball_on(apart, ball));
+  const auto each = engine_of(ball_on(apart, ball, "frictional", "shared_edges = \"each\"\n"));
   for (auto* e : {once.get(), each.get()}) e->step(5);
   EXPECT_EQ(once->contacts().size(), 2U);
   once->step(200);
@@ -190,8 +190,8 @@ TEST(SharedEdges, WhatCrossesASeamGoesOnAsOnAPlane) {
   for (const std::string law : {"frictional", "viscoelastic", "hertz_mindlin"}) {
     const std::string height = law == "frictional" ? "0.00999" : "0.009999";
     const Ball ball{"-0.31, " + height + ", -0.21", "0.7, 0, 0.31"};
-    const auto plane = engine(ball_on(wall, ball, law), {.collisions = true});
-    const auto cut = engine(ball_on(many(20), ball, law), {.collisions = true});
+    const auto plane = engine_of(ball_on(wall, ball, law), {.collisions = true});
+    const auto cut = engine_of(ball_on(many(20), ball, law), {.collisions = true});
     plane->step(30000);
     cut->step(30000);
     EXPECT_GT(cut->approximate(BodyQuantity::position, 0, 0), -0.25) << "a cell on";
@@ -245,12 +245,12 @@ record = ["energy"]
 TEST(SharedEdges, ThreadsPartsAndRestartsKeepTheBits) {
   for (const std::string law : {"frictional", "viscoelastic", "hertz_mindlin"}) {
     const auto scene = crowd(law);
-    auto serial = engine(scene);
-    auto threads = engine(scene, {.all_parts = true, .threads = 2});
-    auto ledger = engine(scene, {.threads = 2, .collisions = true});
+    auto serial = engine_of(scene);
+    auto threads = engine_of(scene, {.all_parts = true, .threads = 2});
+    auto ledger = engine_of(scene, {.threads = 2, .collisions = true});
     serial->step(1500);
     const std::string state = serial->save();
-    auto resumed = engine(scene, {.threads = 2});
+    auto resumed = engine_of(scene, {.threads = 2});
     resumed->restore(state, Constants::from_text);
     EXPECT_EQ(resumed->save(), state);
     serial->step(1500);
@@ -283,7 +283,7 @@ TEST(SharedEdges, ThreadsPartsAndRestartsKeepTheBits) {
 
 TEST(SharedEdges, WhatASceneNeedsNotIsLeftOut) {
   const auto why = [](const scenes::Scene& scene) -> std::string {
-    const auto e = engine(scene);
+    const auto e = engine_of(scene);
     for (const auto& part : e->explain().left_out) {
       if (part.part == "shared edges") return part.why;
     }

@@ -8,7 +8,7 @@
 namespace ulpgate::scenes {
 namespace {
 
-const std::string good = R"(name = "test"
+const std::string good_scene = R"(name = "test"
 [constants]
 R = 0.01
 L = 0.1
@@ -27,7 +27,7 @@ until = 1
 )";
 
 Scene read(const std::string& from = "", const std::string& to = "") {
-  std::string text = good;
+  std::string text = good_scene;
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   const auto result = read_scene(text.replace(at, from.size(), to), "t.toml");
@@ -153,7 +153,7 @@ TEST(SceneValidation, B6MemoryIsEstimatedBeforeItIsTaken) {
 }
 
 TEST(SceneValidation, B6AReachBeyondMeasureIsRefused) {
-  std::string text = good;
+  std::string text = good_scene;
   text.replace(text.find("[run]"), 5, "[contacts]\nlaw = \"cohesive\"\nbond_reach = 1e300\n[run]");
   const auto result = read_scene(text, "t.toml");
   ASSERT_TRUE(result.scene);
@@ -186,7 +186,7 @@ TEST(SceneValidation, BondsWithinReachAreThoseOfEveryPair) {
 TEST(SceneValidation, A14NamesOfScenesStayInsideTheDirectory) {
   for (const char* name :
        {"../../evil", "/etc/evil", "..", ".hidden", "a/b", "a b", "-x", "\\u00e9", "a\\n"}) {
-    std::string text = good;
+    std::string text = good_scene;
     text.replace(text.find("\"test\""), 6, "\"" + std::string(name) + "\"");
     const auto result = read_scene(text, "t.toml");
     ASSERT_EQ(result.errors.size(), 1U) << name;
@@ -197,7 +197,7 @@ TEST(SceneValidation, A14NamesOfScenesStayInsideTheDirectory) {
 
 TEST(SceneValidation, CConstantsDoNotShadowTheLanguage) {
   for (const char* name : {"pi", "nan", "inf", "sqrt", "exp", "\"a-b\"", "\"1a\"", "\"\""}) {
-    std::string text = good;
+    std::string text = good_scene;
     text.replace(text.find("R = 0.01"), 1, name);
     text.replace(text.find("radius = \"R\""), 12, "radius = 1");
     const auto result = read_scene(text, "t.toml");
@@ -227,7 +227,7 @@ TEST(SceneInTheTypeOfTheRun, AnIntegerMayBeAtTheEndsOfItsRange) {
         "[[generator]]\nkind = \"grid\"\nmaterial = \"m\"\nradius = 0.001\ncounts = [2, 1, 1]\n"
         "spacing = [1, 1, 1]\ncorner = [0, 1, 0]\nseed = " +
         seed + "\n";
-    std::string text = good;
+    std::string text = good_scene;
     return read_scene(text.insert(text.find("[[wall]]"), grid), "t.toml").errors;
   };
   for (const char* seed : {"0", "1", "2147483647"}) {

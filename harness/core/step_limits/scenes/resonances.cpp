@@ -58,14 +58,14 @@ double energy_error(std::string_view token, double z, const ode::StopFlag& stop)
   return largest;
 }
 
-struct Point {
+struct PhasePoint {
   double z, error;
 };
 
 // How often a z errs as much as the median of those up to 0.1 away, those next to it left out.
-double above_neighbours(const std::vector<Point>& line, std::size_t i) {
+double above_neighbours(const std::vector<PhasePoint>& line, std::size_t i) {
   std::vector<double> around;
-  for (const Point& p : line) {
+  for (const PhasePoint& p : line) {
     const double off = std::abs(p.z - line[i].z);
     if (off > 0.01 && off < 0.11) around.push_back(p.error);
   }
@@ -87,7 +87,7 @@ StressRow scan_resonances(std::string_view token, const ode::StopFlag& stop) {
     for (const double off : {-4e-3, -2e-3, 0.0, 2e-3, 4e-3}) places.push_back(z + off);
   }
   std::sort(places.begin(), places.end());
-  std::vector<Point> line;
+  std::vector<PhasePoint> line;
   line.reserve(places.size());
   StressRow row;
   row.verdict = StressVerdict::stable;
@@ -115,7 +115,7 @@ StressRow scan_resonances(std::string_view token, const ode::StopFlag& stop) {
                            line[i].z, over);
   }
   row.figures["resonances"] = found;
-  for (const Point& p : line) {
+  for (const PhasePoint& p : line) {
     const double tenths = p.z * 10;
     if (std::abs(tenths - std::round(tenths)) < 1e-9)
       row.figures[fmt::format("energy_error_at_{:.1f}", p.z)] = p.error;
