@@ -28,7 +28,7 @@ JOB = {
     "required": ["runs-on", "steps", "timeout-minutes"],
     "properties": {
         "runs-on": {"type": "string"},
-        "container": {"const": "debian:12"},
+        "container": {"enum": ["debian:12", "debian:13"]},
         # GitHub ends a job after six hours.
         "timeout-minutes": {"type": "integer", "minimum": 1, "maximum": 360},
         "steps": {"type": "array", "items": STEP, "minItems": 1},
@@ -52,6 +52,7 @@ GITLAB_JOB = {
     "type": "object",
     "required": ["stage", "script", "rules"],
     "properties": {
+        "image": {"const": "debian:13"},
         "stage": {"enum": ["gate", "night"]},
         "timeout": {"type": "string", "pattern": r"^\d+ (minutes|hours)$"},
         "interruptible": {"type": "boolean"},
@@ -91,9 +92,13 @@ def commands():
             yield f"{GITLAB.name}: {name}", line
 
 
-def test_each_pipeline_has_a_merge_a_sanitizer_a_night_and_the_fuzz_targets():
+def test_each_pipeline_has_a_merge_on_both_releases_a_sanitizer_a_night_and_the_fuzz_targets():
     github = {job for file in WORKFLOWS for job in read(file)["jobs"]}
-    assert github == set(gitlab_jobs()) == {"gate", "asan", "nightly", "fuzz"}
+    assert (
+        github
+        == set(gitlab_jobs())
+        == {"gate", "gate_debian13", "asan", "nightly", "fuzz"}
+    )
 
 
 @pytest.mark.parametrize("file", [*WORKFLOWS, GITLAB], ids=lambda f: f.name)

@@ -32,15 +32,21 @@ std::vector<MpfrValue> power(Point z, Point w) {
   return out;
 }
 
-// exp(w log z) by MPC with five hundred bits more.
+// w log z by MPC, to the bits of `log`.
+void set_log_of_power(MpcValue& log, Point z, Point w) {
+  MpcValue exponent(64);
+  mpc_set_d_d(log, z.re, z.im, MPC_RNDNN);
+  mpc_set_d_d(exponent, w.re, w.im, MPC_RNDNN);
+  mpc_log(log, log, MPC_RNDNN);
+  mpc_mul(log, log, exponent, MPC_RNDNN);
+}
+
+// exp(w log z) with five hundred bits more.
 void expect_power(Point z, Point w) {
   const WideExponentRange range;
   const auto got = power(z, w);
-  MpcValue want(bits + 500), exponent(64);
-  mpc_set_d_d(want, z.re, z.im, MPC_RNDNN);
-  mpc_set_d_d(exponent, w.re, w.im, MPC_RNDNN);
-  mpc_log(want, want, MPC_RNDNN);
-  mpc_mul(want, want, exponent, MPC_RNDNN);
+  MpcValue want(bits + 500);
+  set_log_of_power(want, z, w);
   mpc_exp(want, want, MPC_RNDNN);
   MpfrValue modulus(64), difference(64);
   mpc_abs(modulus, want, nearest);
@@ -84,20 +90,17 @@ TEST(ComplexPowers, OfATinyExponentHaveAllBitsOfBothParts) {
   for (const Point z : {Point{3, 0.25}, {-0x1p-1000, 7}, {1 + 0x1p-40, 0x1p-30}, {0x1.8p900, -0x1p1000}}) {
     for (const Point w : {Point{0x1.4p-900, -0x1p-905}, {0x1p-1074, 0x1p-60}, {-0x1p-300, 0x1.6p-310}}) {
       const auto got = power(z, w);
-      MpcValue log(bits + 1500), exponent(64);
-      mpc_set_d_d(log, z.re, z.im, MPC_RNDNN);
-      mpc_set_d_d(exponent, w.re, w.im, MPC_RNDNN);
-      mpc_log(log, log, MPC_RNDNN);
-      mpc_mul(log, log, exponent, MPC_RNDNN);
-      mpc_exp(log, log, MPC_RNDNN);
+      MpcValue want(bits + 1500);
+      set_log_of_power(want, z, w);
+      mpc_exp(want, want, MPC_RNDNN);
       MpfrValue difference(64), allowed(64);
-      const auto expect_part = [&](const MpfrValue& part, mpfr_srcptr want) {
-        mpfr_sub(difference, part, want, nearest);
-        mpfr_mul_2si(allowed, want, -bits, nearest);
+      const auto expect_part = [&](const MpfrValue& part, mpfr_srcptr exact) {
+        mpfr_sub(difference, part, exact, nearest);
+        mpfr_mul_2si(allowed, exact, -bits, nearest);
         EXPECT_LE(mpfr_cmpabs(difference, allowed), 0) << z.re << " " << z.im << " ^ " << w.re << " " << w.im;
       };
-      expect_part(got[0], mpc_realref(static_cast<mpc_ptr>(log)));
-      expect_part(got[1], mpc_imagref(static_cast<mpc_ptr>(log)));
+      expect_part(got[0], mpc_realref(static_cast<mpc_ptr>(want)));
+      expect_part(got[1], mpc_imagref(static_cast<mpc_ptr>(want)));
     }
   }
 }
@@ -128,11 +131,8 @@ TEST(ComplexPowers, BeyondTheRangeKeepTheirSigns) {
         const Point z{-0x1.5ae9cc006af72p+100, std::ldexp(0x1.1cd6bbfb6e49p+0, std::max(apart + 100, -1000))};
         const Point w{std::ldexp(0x1.4ac7a5741bab3p+0, exponent), growth};
         const auto got = power(z, w);
-        MpcValue log_power(enough), by(64);
-        mpc_set_d_d(log_power, z.re, z.im, MPC_RNDNN);
-        mpc_set_d_d(by, w.re, w.im, MPC_RNDNN);
-        mpc_log(log_power, log_power, MPC_RNDNN);
-        mpc_mul(log_power, log_power, by, MPC_RNDNN);
+        MpcValue log_power(enough);
+        set_log_of_power(log_power, z, w);
         MpfrValue sine(64), cosine(64);
         mpfr_sin_cos(sine, cosine, mpc_imagref(static_cast<mpc_ptr>(log_power)), nearest);
         close += mpfr_get_exp(sine) < -120 ? 1 : 0;

@@ -177,14 +177,14 @@ void map_each_to_domain(Real* x, std::size_t count, std::size_t step) {
   for (std::size_t i = 0; i < count; ++i) x[i * step] = map_to_domain(map, x[i * step]);
 }
 // The map is chosen once for all of them.
+template <RealType Real, DomainMap... maps>
+void map_all_to_one_of(DomainMap map, Real* x, std::size_t count, std::size_t step) {
+  static_cast<void>(((map == maps && (map_each_to_domain<maps>(x, count, step), true)) || ...));
+}
 template <RealType Real>
 void map_all_to_domain(DomainMap map, Real* x, std::size_t count, std::size_t step) {
-  [&]<DomainMap... maps>(std::integer_sequence<DomainMap, maps...> /*all*/) {
-    static_cast<void>(((map == maps && (map_each_to_domain<maps>(x, count, step), true)) || ...));
-  }
-  (std::integer_sequence<DomainMap, DomainMap::PM1, DomainMap::GTM1, DomainMap::GT1, DomainMap::GT0,
-                         DomainMap::NZ, DomainMap::UINT, DomainMap::INT, DomainMap::MODPI,
-                         DomainMap::MOD2PI>());
+  using enum DomainMap;
+  map_all_to_one_of<Real, PM1, GTM1, GT1, GT0, NZ, UINT, INT, MODPI, MOD2PI>(map, x, count, step);
 }
 
 // The k-th bit pattern of binary32, each once: blocks of 2^20 neighbours, far from each other and from 1.0
