@@ -1,6 +1,7 @@
 # Unity builds: the sources of a room, or of several that a target names together, in one translation unit, so that the
-# headers and templates that they share are compiled once, which takes a third off a build from nothing.  On by default, so
-# that two names that meet are seen by whoever wrote them; who changes one source again and again may rather have it OFF.
+# headers and templates that they share are compiled once, which takes a quarter off a build from nothing, and some more
+# where rooms stand together (decision 221).  On by default, so that two names that meet are seen by whoever wrote them; who
+# changes one source again and again may rather have it OFF.
 # Code of one type is compiled apart from that of others either way, and what different parts of the gate use apart as well:
 # what a change can affect is read from dependencies (scripts/merge/changed_since.py).
 
