@@ -7,22 +7,19 @@
 // Stability of Numerical Algorithms (2002), 12).
 #pragma once
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "reference/types/eigen_traits.hpp"
+#include "kernels/ode/algebra/lu.hpp"
+#include "reference/types/real_types.hpp"
 
 namespace ulpgate::ode {
 
 template <RealType Real>
 class StageSystem {
  public:
-  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-
   static constexpr bool can_be_narrow = std::numeric_limits<Real>::digits > 113;
 
   // `a`: the method's coefficients; `jacobians`: row by row, one for all stages or one a stage.  `narrow` is
@@ -36,7 +33,7 @@ class StageSystem {
     while (n_ * n_ < jacobians_.front().size()) ++n_;
     narrow_ = false;
     if constexpr (can_be_narrow) narrow_ = narrow && decompose_narrow();
-    if (!narrow_) lu_.compute(matrix<Real>());
+    if (!narrow_) decompose_wide();
   }
 
   [[nodiscard]] bool is_narrow() const { return narrow_; }
@@ -44,31 +41,33 @@ class StageSystem {
   void widen() {
     if (!narrow_) return;
     narrow_ = false;
-    lu_.compute(matrix<Real>());
+    decompose_wide();
   }
 
-  [[nodiscard]] Vector solve(const Vector& residual) {
+  // Both are of all components of the first stage, then of the second and so on.
+  [[nodiscard]] std::vector<Real> solve(const std::vector<Real>& residual) {
     if constexpr (can_be_narrow) {
-      Vector x(residual.size());
+      std::vector<Real> x(residual.size());
       if (narrow_ && solve_narrow(residual, x)) return x;
       widen();
     }
     return lu_.solve(residual);
   }
-  // In the type itself.
-  [[nodiscard]] Matrix inverse() const {
-    return narrow_ ? Matrix(Eigen::PartialPivLU<Matrix>(matrix<Real>()).inverse()) : Matrix(lu_.inverse());
+  // In the type itself, row by row.
+  [[nodiscard]] std::vector<Real> inverse() const {
+    if (!narrow_) return lu_.inverse();
+    LuDecomposition<Real> wide;
+    wide.decompose(matrix<Real>(), rows());
+    return wide.inverse();
   }
 
  private:
-  using NarrowMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  using NarrowVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  [[nodiscard]] std::size_t rows() const { return a_->size() * n_; }
 
   template <class Number>
-  [[nodiscard]] Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> matrix() const {
+  [[nodiscard]] std::vector<Number> matrix() const {
     const std::size_t s = a_->size();
-    const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
-    Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> m(at(s * n_), at(s * n_));
+    std::vector<Number> m(rows() * rows());
     std::vector<Number> of_stage;
     for (std::size_t j = 0; j < s; ++j) {
       if (j == 0 || jacobians_.size() > 1) {
@@ -80,7 +79,7 @@ class StageSystem {
         const Number factor = static_cast<Number>(Real(h_ * (*a_)[i][j]));
         for (std::size_t r = 0; r < n_; ++r) {
           for (std::size_t c = 0; c < n_; ++c)
-            m(at(i * n_ + r), at(j * n_ + c)) =
+            m[(i * n_ + r) * rows() + j * n_ + c] =
                 (i == j && r == c ? Number(1) : Number(0)) - factor * of_stage[r * n_ + c];
         }
       }
@@ -88,29 +87,29 @@ class StageSystem {
     return m;
   }
 
+  void decompose_wide() { lu_.decompose(matrix<Real>(), rows()); }
   [[nodiscard]] bool decompose_narrow() {
-    const NarrowMatrix m = matrix<long double>();
-    if (!m.allFinite()) return false;
-    narrow_lu_.compute(m);
-    const auto& lu = narrow_lu_.matrixLU();
-    return lu.allFinite() && (lu.diagonal().array() != 0).all();
+    narrow_lu_.decompose(matrix<long double>(), rows());
+    return narrow_lu_.is_regular();
   }
 
   // The residual is scaled by a power of two, since corrections of many digits leave the narrow range.
-  [[nodiscard]] bool solve_narrow(const Vector& residual, Vector& x) const {
-    using std::abs, std::frexp, std::ldexp;
+  [[nodiscard]] bool solve_narrow(const std::vector<Real>& residual, std::vector<Real>& x) const {
+    using std::abs, std::frexp, std::isfinite, std::ldexp;
     Real largest(0);
     for (const Real& r : residual) {
       if (abs(r) > largest) largest = abs(r);
     }
     int exponent = 0;
     if (largest > 0) (void)frexp(largest, &exponent);
-    NarrowVector scaled(residual.size());
-    for (Eigen::Index i = 0; i < residual.size(); ++i)
-      scaled(i) = static_cast<long double>(Real(ldexp(residual(i), -exponent)));
-    const NarrowVector solved = narrow_lu_.solve(scaled);
-    if (!solved.allFinite()) return false;
-    for (Eigen::Index i = 0; i < residual.size(); ++i) x(i) = ldexp(Real(solved(i)), exponent);
+    std::vector<long double> scaled(residual.size());
+    for (std::size_t i = 0; i < residual.size(); ++i)
+      scaled[i] = static_cast<long double>(Real(ldexp(residual[i], -exponent)));
+    const std::vector<long double> solved = narrow_lu_.solve(scaled);
+    for (std::size_t i = 0; i < residual.size(); ++i) {
+      if (!isfinite(solved[i])) return false;
+      x[i] = ldexp(Real(solved[i]), exponent);
+    }
     return true;
   }
 
@@ -119,8 +118,8 @@ class StageSystem {
   std::vector<std::vector<Real>> jacobians_;
   std::size_t n_ = 0;
   bool narrow_ = false;
-  Eigen::PartialPivLU<Matrix> lu_;
-  Eigen::PartialPivLU<NarrowMatrix> narrow_lu_;
+  LuDecomposition<Real> lu_;
+  LuDecomposition<long double> narrow_lu_;
 };
 
 }  // namespace ulpgate::ode

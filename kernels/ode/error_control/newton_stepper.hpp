@@ -5,7 +5,6 @@
 // one a stage where that converges too slowly for the digits that are wanted.
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +14,6 @@
 #include "kernels/ode/algebra/stage_system.hpp"
 #include "kernels/ode/coefficients/collocation.hpp"
 #include "kernels/ode/stepper/error_stepper.hpp"
-#include "reference/types/eigen_traits.hpp"
 
 namespace ulpgate::ode {
 
@@ -103,12 +101,8 @@ class NewtonStepper final : public ErrorStepper<Real> {
   }
 
  private:
-  using Matrix = typename StageSystem<Real>::Matrix;
-  using Vector = typename StageSystem<Real>::Vector;
-
   [[nodiscard]] std::size_t n() const { return this->state().size(); }
   [[nodiscard]] std::size_t s() const { return t_.c.size(); }
-  [[nodiscard]] static Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
   // df/dy, row by row; by differences where the problem does not know it, which Newton's iteration forgives.
   void jacobian(const Real& t, std::span<const Real> y, std::vector<Real>& out) {
@@ -163,12 +157,12 @@ class NewtonStepper final : public ErrorStepper<Real> {
   };
   [[nodiscard]] Change correct(const Real& h) {
     using std::abs;
-    Vector residual(at(s() * n()));
+    std::vector<Real> residual(s() * n());
     for (std::size_t i = 0; i < s(); ++i) {
       for (std::size_t d = 0; d < n(); ++d) {
         Real sum(0);
         for (std::size_t j = 0; j < s(); ++j) sum += t_.a[i][j] * slopes_[j][d];
-        residual(at(i * n() + d)) = h * sum - z_[i][d];
+        residual[i * n() + d] = h * sum - z_[i][d];
       }
     }
     correction_ = system_.solve(residual);
@@ -181,7 +175,7 @@ class NewtonStepper final : public ErrorStepper<Real> {
       Real size = std::max<Real>(abs(this->state()[d]), least);
       Real moved(0);
       for (std::size_t i = 0; i < s(); ++i) {
-        const Real& dz = correction_(at(i * n() + d));
+        const Real& dz = correction_[i * n() + d];
         z_[i][d] += dz;
         if (abs(z_[i][d]) > size) size = abs(z_[i][d]);
         if (!(abs(dz) <= moved)) moved = abs(dz);
@@ -230,20 +224,21 @@ class NewtonStepper final : public ErrorStepper<Real> {
         of_slope[j][d] = u * sum;
       }
     }
-    Vector residual(at(s() * n()));
+    std::vector<Real> residual(s() * n());
     for (std::size_t i = 0; i < s(); ++i) {
       for (std::size_t d = 0; d < n(); ++d) {
         Real sum(0);
         for (std::size_t j = 0; j < s(); ++j) sum += abs(t_.a[i][j]) * of_slope[j][d];
-        residual(at(i * n() + d)) = abs(h) * sum + u * abs(z_[i][d]);
+        residual[i * n() + d] = abs(h) * sum + u * abs(z_[i][d]);
       }
     }
     const std::vector<Real> size = sizes_of_stages();
-    const Matrix inverse = system_.inverse();
+    const std::vector<Real> inverse = system_.inverse();
     for (std::size_t k = 0; k < s() * n(); ++k) {
       Real bound(0);
-      for (std::size_t c = 0; c < s() * n(); ++c) bound += abs(inverse(at(k), at(c))) * residual(at(c));
-      if (!(abs(correction_(at(k))) <= 2 * bound) || !(4 * bound <= size[k % n()])) return false;
+      for (std::size_t c = 0; c < s() * n(); ++c)
+        bound += abs(inverse[k * residual.size() + c]) * residual[c];
+      if (!(abs(correction_[k]) <= 2 * bound) || !(4 * bound <= size[k % n()])) return false;
     }
     return true;
   }
@@ -308,18 +303,18 @@ class NewtonStepper final : public ErrorStepper<Real> {
     evaluate_stages(t, h);
     std::vector<Real> slope(n());
     this->problem().slope(t, this->state(), slope);
-    Vector difference(at(n()));
-    Matrix m(at(n()), at(n()));
+    std::vector<Real> difference(n());
+    std::vector<Real> m(n() * n());
     for (std::size_t d = 0; d < n(); ++d) {
       Real sum = slope[d];
       for (std::size_t j = 0; j < s(); ++j) sum -= w_.at_zero[j] * slopes_[j][d];
-      difference(at(d)) = g * sum;
+      difference[d] = g * sum;
       for (std::size_t c = 0; c < n(); ++c)
-        m(at(d), at(c)) = (d == c ? Real(1) : Real(0)) - g * jacobian_[d * n() + c];
+        m[d * n() + c] = (d == c ? Real(1) : Real(0)) - g * jacobian_[d * n() + c];
     }
-    const Vector damped = Eigen::PartialPivLU<Matrix>(m).solve(difference);
-    this->error_.resize(n());
-    for (std::size_t d = 0; d < n(); ++d) this->error_[d] = damped(at(d));
+    LuDecomposition<Real> damping;
+    damping.decompose(std::move(m), n());
+    this->error_ = damping.solve(difference);
   }
 
   CollocationNodes nodes_;
@@ -331,7 +326,7 @@ class NewtonStepper final : public ErrorStepper<Real> {
   std::vector<std::vector<Real>> z_;
   std::vector<std::vector<Real>> slopes_;
   StageSystem<Real> system_;
-  Vector correction_;  // of the stages, the last one
+  std::vector<Real> correction_;  // of the stages, the last one
 };
 
 }  // namespace ulpgate::ode

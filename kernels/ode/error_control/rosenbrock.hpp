@@ -6,12 +6,12 @@
 // Equations II (1996), IV.7.
 #pragma once
 
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
+#include "kernels/ode/algebra/lu.hpp"
 #include "kernels/ode/stepper/error_stepper.hpp"
-#include "reference/types/eigen_traits.hpp"
+#include "reference/types/real_types.hpp"
 
 namespace ulpgate::ode {
 
@@ -32,37 +32,38 @@ class RosenbrockStepper final : public ErrorStepper<Real> {
     const std::size_t n = y.size();
     jacobian_.resize(n * n);
     this->problem().jacobian(t, y, jacobian_);
-    Matrix m(at(n), at(n));
+    std::vector<Real> m(n * n);
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) m(at(i), at(j)) = (i == j ? 2 / h : Real(0)) - jacobian_[i * n + j];
+      for (std::size_t j = 0; j < n; ++j) m[i * n + j] = (i == j ? 2 / h : Real(0)) - jacobian_[i * n + j];
     }
-    const Eigen::PartialPivLU<Matrix> lu(m);
+    LuDecomposition<Real> lu;
+    lu.decompose(std::move(m), n);
     // sum_j a_ij U_j and sum_j c_ij U_j / h of the stages U, then the step and its error.
     const Real eight_thirds = Real(8) / 3;
-    std::array<Vector, 4> u;
+    std::array<std::vector<Real>, 4> u;
     std::vector<Real> stage(y.begin(), y.end());
     std::vector<Real> slope(n);
     this->problem().slope(t, stage, slope);
-    Vector right(at(n));
-    for (std::size_t d = 0; d < n; ++d) right(at(d)) = slope[d];
+    std::vector<Real> right(n);
+    for (std::size_t d = 0; d < n; ++d) right[d] = slope[d];
     u[0] = lu.solve(right);
-    for (std::size_t d = 0; d < n; ++d) right(at(d)) = slope[d] + 4 * u[0](at(d)) / h;
+    for (std::size_t d = 0; d < n; ++d) right[d] = slope[d] + 4 * u[0][d] / h;
     u[1] = lu.solve(right);
-    for (std::size_t d = 0; d < n; ++d) stage[d] = y[d] + 2 * u[0](at(d));
+    for (std::size_t d = 0; d < n; ++d) stage[d] = y[d] + 2 * u[0][d];
     this->problem().slope(t, stage, slope);
-    for (std::size_t d = 0; d < n; ++d) right(at(d)) = slope[d] + (u[0](at(d)) - u[1](at(d))) / h;
+    for (std::size_t d = 0; d < n; ++d) right[d] = slope[d] + (u[0][d] - u[1][d]) / h;
     u[2] = lu.solve(right);
-    for (std::size_t d = 0; d < n; ++d) stage[d] = y[d] + (2 * u[0](at(d)) + u[2](at(d)));
+    for (std::size_t d = 0; d < n; ++d) stage[d] = y[d] + (2 * u[0][d] + u[2][d]);
     this->problem().slope(t, stage, slope);
     for (std::size_t d = 0; d < n; ++d)
-      right(at(d)) = slope[d] + (u[0](at(d)) - u[1](at(d)) - eight_thirds * u[2](at(d))) / h;
+      right[d] = slope[d] + (u[0][d] - u[1][d] - eight_thirds * u[2][d]) / h;
     u[3] = lu.solve(right);
     this->candidate_.resize(n);
     this->error_.resize(n);
     bool finite = true;
     for (std::size_t d = 0; d < n; ++d) {
-      this->candidate_[d] = stage[d] + u[3](at(d));
-      this->error_[d] = u[3](at(d));
+      this->candidate_[d] = stage[d] + u[3][d];
+      this->error_[d] = u[3][d];
       finite = finite && isfinite(this->candidate_[d]);
     }
     return finite;
@@ -72,10 +73,6 @@ class RosenbrockStepper final : public ErrorStepper<Real> {
   [[nodiscard]] std::string failure() const override { return "rodas3: the step left the numbers"; }
 
  private:
-  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-  [[nodiscard]] static Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
   std::vector<Real> jacobian_;
 };
 

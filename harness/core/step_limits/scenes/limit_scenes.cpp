@@ -81,8 +81,12 @@ std::vector<Vector3> lattice_points(std::string_view lattice) {
 
 // A turn that carries x to where its name says.
 Eigen::Matrix3d turn_of(std::string_view turn) {
+  // About x cross `to`, of which 1 + c is not near 0 for any of these.  Not Eigen's FromTwoVectors, which
+  // instantiates a singular value decomposition for vectors that point apart.
   const auto onto = [](const Vector3& to) {
-    return Eigen::Quaterniond::FromTwoVectors(Vector3::UnitX(), to.normalized()).toRotationMatrix();
+    const Vector3 axis = Vector3::UnitX().cross(to);
+    const double size = to.norm();
+    return Eigen::Quaterniond(size + to.x(), axis.x(), axis.y(), axis.z()).normalized().toRotationMatrix();
   };
   if (turn == "aligned") return Eigen::Matrix3d::Identity();
   if (turn == "turned_45") return onto({1, 1, 0});
