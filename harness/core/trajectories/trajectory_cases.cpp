@@ -161,7 +161,8 @@ class RowRun {
       const std::scoped_lock lock(mutex);
       if (const auto found = known.find(key); found != known.end()) return *found->second;
     }
-    // Two threads may both compute it: the same bits, and no thread waits for another.
+    // Two threads may both compute it: the same bits, and no thread waits for another.  A job queues its rows
+    // so that they seldom do.
     auto run = std::make_unique<const Trajectory>(run_row(engine, row_, 1, {0, 0, checkpoints}, stop_));
     const std::scoped_lock lock(mutex);
     return *known.emplace(key, std::move(run)).first->second;

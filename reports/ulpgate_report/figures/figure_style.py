@@ -1,12 +1,14 @@
 """The look that all figures share, and their bytes: the same input gives the same file."""
 import contextlib
+import functools
 import io
 import math
 
 import matplotlib
 
 matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402  (the backend has to be chosen first)
+# The backend has to be chosen first.
+from matplotlib import mathtext, pyplot  # noqa: E402
 
 SUFFIXES = ("pdf", "svg", "png")
 # Widths of a page and of one of its two columns, as journals have them.
@@ -50,6 +52,29 @@ _METADATA = {
     "png": {"Software": "ulpgate"},
 }
 
+
+def _keep_parsed_texts():
+    """Labels such as 10^-16 are parsed once each: matplotlib forgets them with every file, and parsing is a ninth of drawing."""
+    parser = mathtext.MathTextParser
+    parse = getattr(getattr(parser, "_parse_cached", None), "__wrapped__", None)
+    if parse is None:  # another matplotlib: it parses as it does
+        return
+
+    of_output = {}
+
+    @functools.lru_cache(maxsize=None)
+    def kept(output, *text):
+        return parse(of_output[output], *text)
+
+    def parse_once(self, *text):
+        output = self._output_type
+        of_output.setdefault(output, self)
+        return kept(output, *text)
+
+    parser._parse_cached = parse_once
+
+
+_keep_parsed_texts()
 pyplot.rcdefaults()
 matplotlib.rcParams.update(_PARAMETERS)
 

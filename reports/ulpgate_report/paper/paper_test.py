@@ -49,7 +49,8 @@ def _write_runs(runs):
     sample_pendulum.write_suite(
         runs / "pendulum", tokens=("double", "mpfr150"), end=3.0, every=1e-2
     )
-    shutil.rmtree(runs / "pendulum" / "dt_1e-6")
+    for run in ("dt_1e-6", "damped"):
+        shutil.rmtree(runs / "pendulum" / run)
     for build in ("gcc_default", "gcc_native"):
         place = runs / "speed" / build
         sample_scenes.write_sample(place, tokens=("float", "double"), bodies=5)
