@@ -38,7 +38,7 @@ REPLACED = [
     ),
     (
         "advise pendulum3 --error 1e-10 --until 0.1",
-        "advise pendulum3 --error 1e-10 --until 0.002",
+        "advise pendulum3 --error 1e-10 --until 0.002 --types double",
     ),
     ("sin,exp,kernel", "sin,exp"),
 ]
