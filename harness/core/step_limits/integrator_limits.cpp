@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/core/step_limits/iteration_theory.hpp"
 #include "harness/core/step_limits/stability_theory.hpp"
 #include "harness/core/step_limits/stable_set.hpp"
 #include "kernels/ode/integrators/integrators.hpp"
