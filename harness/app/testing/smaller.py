@@ -11,7 +11,7 @@ _SMALLER = [
     (r"--steps \d+", "--steps 20"),
     (r"--repeats \d+", "--repeats 2"),
     (r"--snapshots \S+", "--snapshots 0"),
-    # Else times are measured until they hold still.
+    # Five rounds of timing otherwise.
     (r"ulpgate work-precision (?!.*--repeats)", "ulpgate work-precision --repeats 1 "),
     (r"ulpgate math (?!.*--functions)", "ulpgate math --functions exp "),
     (

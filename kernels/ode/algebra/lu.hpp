@@ -1,7 +1,7 @@
 // Linear systems of some rows to some hundred, in any number: Gaussian elimination with row pivots.
 //
-// Ours, since a library's costs every translation unit some ten seconds a type: it brings products by blocks
-// that systems of this size do not need.
+// Ours, since a library's costs every translation unit five to ten seconds a type: it brings products by
+// blocks that systems of this size do not need.
 #pragma once
 
 #include <cmath>

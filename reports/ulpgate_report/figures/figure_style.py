@@ -54,7 +54,7 @@ _METADATA = {
 
 
 def _keep_parsed_texts():
-    """Labels such as 10^-16 are parsed once each: matplotlib forgets them with every file, and parsing is a ninth of drawing."""
+    """Labels such as 10^-16 are parsed once each: matplotlib forgets them with every file, and parsing was an eighth of drawing."""
     parser = mathtext.MathTextParser
     parse = getattr(getattr(parser, "_parse_cached", None), "__wrapped__", None)
     if parse is None:  # another matplotlib: it parses as it does
