@@ -94,8 +94,9 @@ StressJob make_stress_job(const StressOptions& o) {
   for (std::size_t i = 0; i < job.cases.size(); ++i) {
     const StressCase& c = *job.cases[i];
     keys += c.key() + "\n";
-    // What holds in every type, five runs of 62 digits, is found with the case's first: far dearer than
-    // others of its rows, so that these come later in the queue than to compute it once more beside it.
+    // What holds in every type, of a trajectory five runs of 62 digits, is found with the case's first: so
+    // much dearer than its other rows that these come later in the queue than to compute it once more beside
+    // it.
     double shared = 5 * slowness_of_bits(207);
     for (const auto& token : job.types) {
       job.measurements.push_back(std::make_unique<StressMeasurement>(c, token));

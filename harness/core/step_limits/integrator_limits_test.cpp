@@ -101,6 +101,8 @@ TEST(StabilityTheory, SweepsOverStagesConvergeForLessThanIterationOfAllAtOnce) {
   // One stage: k = mu (y + k/2) either way.
   EXPECT_NEAR(sweep_limit(1, Axis::imaginary, 1), 2, 1e-8);
   EXPECT_NEAR(sweep_limit(1, Axis::real, 1), 2, 1e-8);
+  // Of two stages a conjugate pair, whose product is 1/12.
+  EXPECT_NEAR(jacobi_limit(2), std::sqrt(12.0), 1e-12);
   const double all_at_once[] = {2, 3.46, 4.64, 6.05, 7.29};
   for (int stages = 1; stages <= 5; ++stages) {
     EXPECT_NEAR(jacobi_limit(stages), all_at_once[stages - 1], 0.006);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "kernels/ode/algebra/linear.hpp"
+#include "kernels/ode/algebra/lu.hpp"
 #include "kernels/ode/algebra/stage_system.hpp"
 #include "kernels/ode/coefficients/collocation.hpp"
 #include "kernels/ode/stepper/error_stepper.hpp"
