@@ -22,7 +22,7 @@ using ExactParts = std::array<Exactness, 2>;
 //
 // Real functions are MPFR's, correctly rounded (error at most 1/2 ulp of the result's precision); complex
 // ones are MPC's or our formulas with 32 guard bits (oracle_complex.hpp), within 1/2 + 2^-24 ulp; special
-// functions are our series, accepted when two working precisions agree to 16 bits beyond it.  Special values
+// functions are our series with bounds of what their roundings lose, within 1/2 + 2^-16 ulp.  Special values
 // follow C99 annex F and G.  Runs in MPFR's widest exponent range.
 ExactParts exact_value(const FunctionInfo& f, std::span<const MpfrValue> args, std::span<MpfrValue> out);
 

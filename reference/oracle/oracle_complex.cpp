@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "reference/oracle/oracle_angles.hpp"
 #include "reference/oracle/oracle_hyperbolic.hpp"
 
 namespace ulpgate::oracle {
@@ -20,7 +21,7 @@ void sine(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
   const mpfr_prec_t bits = mpfr_get_prec(re);
   MpfrValue sh(bits), ch(bits);
   sinh_and_cosh(sh, ch, y);
-  mpfr_sin_cos(re, im, x, nearest);
+  sine_and_cosine(re, im, x);
   mpfr_mul(re, re, ch, nearest);
   mpfr_mul(im, im, sh, nearest);
 }
@@ -30,7 +31,7 @@ void cosine(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
   const mpfr_prec_t bits = mpfr_get_prec(re);
   MpfrValue sh(bits), ch(bits);
   sinh_and_cosh(sh, ch, y);
-  mpfr_sin_cos(im, re, x, nearest);
+  sine_and_cosine(im, re, x);
   mpfr_mul(re, re, ch, nearest);
   mpfr_mul(im, im, sh, nearest);
   mpfr_neg(im, im, nearest);
@@ -48,7 +49,7 @@ void hyperbolic_cosine(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
 void exponential(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
   MpfrValue modulus(mpfr_get_prec(re));
   mpfr_exp(modulus, x, nearest);
-  mpfr_sin_cos(im, re, y, nearest);
+  sine_and_cosine(im, re, y);
   mpfr_mul(re, re, modulus, nearest);
   mpfr_mul(im, im, modulus, nearest);
 }
@@ -86,7 +87,7 @@ void arc_tangent(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
   MpfrValue t(bits), u(bits);
   one_minus_norm(t, x, y);
   mpfr_mul_2ui(u, x, 1, nearest);
-  mpfr_atan2(re, u, t, nearest);
+  angle_of(re, u, t);
   mpfr_div_2ui(re, re, 1, nearest);
   const bool negative = mpfr_signbit(y) != 0;
   if (negative) {
@@ -156,13 +157,13 @@ struct Arc {
 
 void arc_sine(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
   const Arc arc(mpfr_get_prec(re), x, y);
-  mpfr_atan2(re, x, arc.q, nearest);
+  angle_of(re, x, arc.q);
   mpfr_setsign(im, arc.l, mpfr_signbit(y), nearest);
 }
 
 void arc_cosine(mpfr_ptr re, mpfr_ptr im, mpfr_srcptr x, mpfr_srcptr y) {
   const Arc arc(mpfr_get_prec(re), x, y);
-  mpfr_atan2(re, arc.q, x, nearest);
+  angle_of(re, arc.q, x);
   mpfr_setsign(im, arc.l, mpfr_signbit(y) == 0 ? 1 : 0, nearest);
 }
 

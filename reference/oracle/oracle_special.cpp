@@ -8,40 +8,13 @@
 #include <cstdlib>
 #include <vector>
 
+#include "reference/oracle/oracle_angles.hpp"
+
 namespace ulpgate::oracle {
 
 namespace {
 
 constexpr auto nearest = MPFR_RNDN;
-
-// Runs compute(working precision, result) at rising precision until two successive results agree to 16 bits
-// beyond the wanted ones.  A result that stays zero up to the last precision is zero.
-template <class Compute>
-void by_agreement(MpfrValue& out, Compute&& compute) {
-  const long wanted = mpfr_get_prec(out);
-  MpfrValue previous(wanted);
-  bool have_previous = false;
-  long bits = wanted + 64;
-  for (int attempt = 0; attempt < 8; ++attempt, bits += bits / 2) {
-    MpfrValue current(bits);
-    compute(bits, current);
-    if (have_previous) {
-      MpfrValue difference(64);
-      mpfr_sub(difference, current, previous, nearest);
-      const bool agree = mpfr_zero_p(difference) || !mpfr_number_p(current.get()) ||
-                         (mpfr_regular_p(current.get()) &&
-                          mpfr_get_exp(difference.get()) < mpfr_get_exp(current.get()) - wanted - 16);
-      if (agree) {
-        mpfr_set(out, current, nearest);
-        return;
-      }
-    }
-    mpfr_set_prec(previous, bits);
-    mpfr_set(previous, current, nearest);
-    have_previous = true;
-  }
-  mpfr_set(out, previous, nearest);
-}
 
 long integer(const MpfrValue& x) {
   return mpfr_get_si(x, nearest);
@@ -55,60 +28,131 @@ long laguerre_sum(long n, long m, mpfr_srcptr x, MpfrValue& sum) {
   mpfr_set_ui(term, 1, nearest);
   mpfr_set_ui(sum, 1, nearest);
   mpfr_exp_t largest = 1;
+  // Where n |x| < 1/2 each term is below half of the one before it.
+  const bool falls =
+      mpfr_regular_p(x) != 0 &&
+      mpfr_get_exp(x) + static_cast<mpfr_exp_t>(std::bit_width(static_cast<unsigned long>(n))) < 0;
   for (long k = 0; k < n; ++k) {
     mpfr_mul(term, term, x, nearest);
     mpfr_mul_si(term, term, k - n, nearest);
     mpfr_div_ui(term, term, static_cast<unsigned long>((k + 1) * (m + k + 1)), nearest);
     mpfr_add(sum, sum, term, nearest);
     if (mpfr_regular_p(term.get())) largest = std::max(largest, mpfr_get_exp(term.get()));
+    if (falls && mpfr_get_exp(term.get()) < -mpfr_get_prec(sum) - 2) break;
   }
   if (mpfr_regular_p(sum.get()) == 0) return mpfr_get_prec(sum);
   const auto size = static_cast<unsigned long>(n + 1);
   return largest - mpfr_get_exp(sum.get()) + 2 * static_cast<long>(std::bit_width(size)) + 3;
 }
 
-// sqrt((2n+1)/(4 pi) (n-m)!/(n+m)!) P_n^m(cos theta) for 0 <= m <= n, by the upward recurrence in the degree
-// (DLMF 14.10.3), which is stable because P_n^m is the dominant solution.
-void normalized_legendre(long n, long m, mpfr_srcptr theta, MpfrValue& result) {
-  const long bits = mpfr_get_prec(result);
-  MpfrValue s(bits);
-  MpfrValue c(bits);
-  mpfr_sin_cos(s, c, theta, nearest);
-  MpfrValue before(bits);  // P_{l-1}^m
-  MpfrValue now(bits);     // P_l^m
+// C_(n-m)^(m+1/2)(c) = P_n^m(c) / P_m^m(c) by the recurrence in the degree (DLMF 14.10.3), whose first number
+// is 1. Returns how many of its bits are lost: bounds of errors are passed on from step to step, in units of
+// 2^-bits, where c has one of itself, a product and a difference one each.
+long gegenbauer(long n, long m, mpfr_srcptr c, MpfrValue& now) {
+  const mpfr_prec_t bits = mpfr_get_prec(now);
+  const auto size = [](mpfr_srcptr x) {
+    return mpfr_regular_p(x) == 0 ? 0.0L : std::ldexp(1.0L, static_cast<int>(mpfr_get_exp(x)));
+  };
+  MpfrValue before(bits);
   MpfrValue next(bits);
   mpfr_set_zero(before, 1);
-  // P_m^m = (-1)^m (2m-1)!! sin^m theta
   mpfr_set_ui(now, 1, nearest);
-  for (long i = 1; i <= m; ++i) {
-    mpfr_mul(now, now, s, nearest);
-    mpfr_mul_si(now, now, -(2 * i - 1), nearest);
-  }
+  const long double size_of_c = size(c);
+  long double error = 0;
+  long double error_before = 0;
   for (long l = m; l < n; ++l) {
+    const auto first = static_cast<long double>(2 * l + 1) * size_of_c * (error + 4 * size(now));
+    const auto second = static_cast<long double>(l + m) * (error_before + size(before));
     mpfr_mul(next, now, c, nearest);
     mpfr_mul_si(next, next, 2 * l + 1, nearest);
     mpfr_mul_si(before, before, l + m, nearest);
     mpfr_sub(next, next, before, nearest);
+    const long double of_difference = size(next);
     mpfr_div_si(next, next, l - m + 1, nearest);
+    error_before = error;
+    error = 1.01L * ((first + second + of_difference) / static_cast<long double>(l - m + 1) + size(next));
     mpfr_swap(before, now);
     mpfr_swap(now, next);
   }
-  mpz_t ratio;
-  mpz_init_set_ui(ratio, 1);
-  for (long i = n - m + 1; i <= n + m; ++i) mpz_mul_ui(ratio, ratio, static_cast<unsigned long>(i));
-  mpfr_const_pi(s, nearest);
-  mpfr_mul_ui(s, s, 4, nearest);
-  mpfr_mul_z(s, s, ratio, nearest);
-  mpz_clear(ratio);
-  mpfr_ui_div(s, static_cast<unsigned long>(2 * n + 1), s, nearest);
-  mpfr_sqrt(s, s, nearest);
-  mpfr_mul(result, now, s, nearest);
+  if (error == 0) return 0;
+  if (mpfr_regular_p(now.get()) == 0 || !std::isfinite(error)) return bits;
+  return std::ilogb(error) + 2 - static_cast<long>(mpfr_get_exp(now.get()));
+}
+
+// sqrt((2n+1)/(4 pi) (n-m)!/(n+m)!) P_n^m(cos theta) for 0 <= m <= n, within 2^-16 ulp before its last
+// rounding.
+void normalized_legendre(long n, long m, mpfr_srcptr theta, MpfrValue& result) {
+  const long wanted = mpfr_get_prec(result) + 32;
+  // Bounds grow like the recurrence without its signs, at most by 1 + sqrt(2) from step to step.
+  const double z = std::fabs(std::cos(mpfr_get_d(theta, nearest)));
+  const double growth = std::isfinite(z) ? std::log2(z + std::sqrt(1 + z * z)) : 0;
+  long bits = wanted + 16 + static_cast<long>(growth * static_cast<double>(n - m));
+  constexpr long most_bits = 1L << 17U;
+  MpfrValue s(bits), c(bits), value(bits);
+  while (true) {
+    sine_and_cosine(s, c, theta);
+    const long lost = gegenbauer(n, m, c, value);
+    if (bits - lost >= wanted || bits >= most_bits || mpfr_nan_p(value.get()) != 0) break;
+    bits = std::min(most_bits, lost >= bits ? 2 * bits : wanted + lost + 16);
+    for (MpfrValue* x : {&s, &c, &value}) mpfr_set_prec(*x, bits);
+  }
+  // P_m^m = (-1)^m (2m-1)!! sin^m theta; m errors of the sine.
+  mpfr_pow_ui(s, s, static_cast<unsigned long>(m), nearest);
+  mpfr_mul(value, value, s, nearest);
+  if (m % 2 == 1) mpfr_neg(value, value, nearest);
+  mpz_t product;
+  mpz_init_set_ui(product, 1);
+  for (long i = 3; i < 2 * m; i += 2) mpz_mul_ui(product, product, static_cast<unsigned long>(i));
+  mpfr_mul_z(value, value, product, nearest);
+  mpz_set_ui(product, 1);
+  for (long i = n - m + 1; i <= n + m; ++i) mpz_mul_ui(product, product, static_cast<unsigned long>(i));
+  mpfr_const_pi(c, nearest);
+  mpfr_mul_ui(c, c, 4, nearest);
+  mpfr_mul_z(c, c, product, nearest);
+  mpz_clear(product);
+  mpfr_ui_div(c, static_cast<unsigned long>(2 * n + 1), c, nearest);
+  mpfr_sqrt(c, c, nearest);
+  mpfr_mul(result, value, c, nearest);
+}
+
+}  // namespace
+
+namespace {
+
+// J_n(x) by the first term of Hankel's series, sqrt(2 / (pi x)) cos(x - n pi/2 - pi/4) (DLMF 10.17.3), for x
+// so large that the second one, (4n^2 - 1) / (8x) of it, is nothing: 2^-200 of an ulp, for sines and cosines
+// that lose up to 200 bits.  False for other x.
+bool far_bessel(mpfr_ptr out, long n, mpfr_srcptr x) {
+  constexpr long spare = 200;
+  const mpfr_prec_t bits = mpfr_get_prec(out) + 32;
+  const auto order = static_cast<long>(std::bit_width(static_cast<unsigned long>(n)));
+  if (mpfr_regular_p(x) == 0 || mpfr_get_exp(x) < bits + 2 * order + 2 * spare) return false;
+  MpfrValue size(mpfr_get_prec(x)), s(bits + spare), c(bits + spare), wave(bits);
+  mpfr_abs(size, x, nearest);
+  sine_and_cosine(s, c, size);
+  // sqrt(2) cos(x - n pi/2 - pi/4) is cos x + sin x, sin x - cos x and the negatives of these in turn.
+  if (n % 2 == 0) {
+    mpfr_add(wave, c, s, nearest);
+  } else {
+    mpfr_sub(wave, s, c, nearest);
+  }
+  if (mpfr_regular_p(wave.get()) == 0 || mpfr_get_exp(wave.get()) < -spare) return false;
+  const bool turned = n % 4 == 2 || n % 4 == 3;
+  const bool mirrored = n % 2 == 1 && mpfr_sgn(x) < 0;
+  if (turned != mirrored) mpfr_neg(wave, wave, nearest);
+  MpfrValue width(bits);
+  mpfr_const_pi(width, nearest);
+  mpfr_mul(width, width, size, nearest);
+  mpfr_sqrt(width, width, nearest);
+  mpfr_div(out, wave, width, nearest);
+  return true;
 }
 
 }  // namespace
 
 void cyl_bessel_j(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
-  mpfr_jn(out[0], integer(a[0]), a[1], nearest);
+  const long n = integer(a[0]);
+  if (!far_bessel(out[0], n, a[1])) mpfr_jn(out[0], n, a[1], nearest);
 }
 
 void factorial(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
@@ -165,12 +209,12 @@ void spherical_harmonic(std::span<const MpfrValue> a, std::span<MpfrValue> out) 
   // What both parts share, and e^(i m phi); Y_n^-m = (-1)^m conj(Y_n^m).
   const long bits = mpfr_get_prec(out[0]) + 32;
   MpfrValue legendre(bits);
-  by_agreement(legendre, [&](long, MpfrValue& value) { normalized_legendre(n, order, a[2], value); });
+  normalized_legendre(n, order, a[2], legendre);
   MpfrValue angle(mpfr_get_prec(a[3].get()) + 16);  // exact
   MpfrValue s(bits);
   MpfrValue c(bits);
   mpfr_mul_si(angle, a[3], order, nearest);
-  mpfr_sin_cos(s, c, angle, nearest);
+  sine_and_cosine(s, c, angle);
   mpfr_mul(out[0], legendre, c, nearest);
   mpfr_mul(out[1], legendre, s, nearest);
   if (m < 0) {

@@ -1,4 +1,5 @@
-// Exact values of the special functions, by series in working precisions that rise until two of them agree.
+// Exact values of the special functions, by series in working precisions that rise until what their roundings
+// lose is little enough.
 #pragma once
 
 #include <span>
@@ -7,7 +8,9 @@
 
 namespace ulpgate::oracle {
 
-// J_n(x), n = args[0] a non-negative integer: mpfr_jn, correctly rounded.
+// J_n(x), n = args[0] a non-negative integer: mpfr_jn, correctly rounded, but for x from some 2^600 on, which
+// it reduces by as many bits: there the first term of its series for large x, within 2^-24 ulp before its
+// last rounding.
 void cyl_bessel_j(std::span<const MpfrValue> args, std::span<MpfrValue> out);
 // n!, correctly rounded.
 void factorial(std::span<const MpfrValue> args, std::span<MpfrValue> out);

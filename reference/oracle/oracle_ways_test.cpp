@@ -1,11 +1,12 @@
-// Tests of the oracle where it takes another way than MPFR and MPC: powers on axes and diagonals and far out,
-// and erfc next to the pole of its rule's error.
+// Tests of the oracle where it takes another way than MPFR and MPC: sines of huge angles, arguments, powers
+// on axes and diagonals and far out, and erfc next to the pole of its rule's error.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
 #include "reference/oracle/oracle.hpp"
+#include "reference/oracle/oracle_angles.hpp"
 #include "reference/oracle/oracle_erf.hpp"
 #include "reference/oracle/oracle_hyperbolic.hpp"
 
@@ -116,6 +117,108 @@ TEST(SinhAndCosh, AreThoseOfMpfr) {
       EXPECT_NE(mpfr_equal_p(sh, want), 0) << precision << " bits, 2^" << exponent;
       mpfr_cosh(want, x, nearest);
       EXPECT_NE(mpfr_equal_p(ch, want), 0) << precision << " bits, 2^" << exponent;
+    }
+  }
+}
+
+// `got` is `want`, or its neighbour where a rounding is close to a tie.
+void expect_within_an_ulp(const MpfrValue& got, const MpfrValue& want, const char* what, double x, double y) {
+  if (mpfr_equal_p(got, want) != 0) return;
+  MpfrValue difference(64);
+  mpfr_sub(difference, got, want, nearest);
+  EXPECT_LE(mpfr_get_exp(difference.get()), mpfr_get_exp(want.get()) - mpfr_get_prec(want) + 1)
+      << what << " of " << x << ", " << y << " in " << mpfr_get_prec(want);
+}
+
+// 6381956970095103 2^797 is the binary64 number closest to a multiple of pi/2 (Muller et al., Handbook of
+// Floating-Point Arithmetic, section 10.2), 2^-60.9 from it; of the 113 and 400 bits of numbers next to a
+// multiple of pi/2 far more than all are lost.
+TEST(HugeAngles, HaveTheSinesOfMpfr) {
+  const WideExponentRange range;
+  int different = 0;
+  int count = 0;
+  const auto expect = [&](mpfr_srcptr x, long precision) {
+    MpfrValue s(precision), c(precision), sine(precision), cosine(precision);
+    oracle::sine_and_cosine(s, c, x);
+    mpfr_sin_cos(sine, cosine, x, nearest);
+    ++count;
+    different += mpfr_equal_p(s, sine) == 0 || mpfr_equal_p(c, cosine) == 0 ? 1 : 0;
+    expect_within_an_ulp(s, sine, "sine", mpfr_get_d(x, nearest), 0);
+    expect_within_an_ulp(c, cosine, "cosine", mpfr_get_d(x, nearest), 0);
+  };
+  for (const long precision : {24L, 96L, 245L, 600L}) {
+    for (const double mantissa :
+         {1.0, -1.0, 0x1.6ac5b262ca1ffp0, -0x1.921fb54442d18p0, 0x1.fffffffffffffp0}) {
+      for (const long exponent : {199L, 200L, 201L, 512L, 849L, 1023L, 1024L, 5003L, 16383L, 65536L}) {
+        MpfrValue x(53);
+        mpfr_set_d(x, mantissa, nearest);
+        mpfr_mul_2si(x, x, exponent, nearest);
+        expect(x, precision);
+      }
+    }
+    for (const long bits_of_x : {113L, 400L, 900L}) {
+      for (const unsigned long k : {1UL, 2UL, 3UL, 12345UL}) {
+        // The number of these bits that is next to k 2^300 quarter turns.
+        MpfrValue x(bits_of_x);
+        mpfr_const_pi(x, nearest);
+        mpfr_mul_ui(x, x, k, nearest);
+        mpfr_mul_2si(x, x, 299, nearest);
+        expect(x, precision);
+      }
+    }
+  }
+  EXPECT_LE(different, count / 20);
+}
+
+TEST(Arguments, AreThoseOfMpfrInEveryDirection) {
+  const WideExponentRange range;
+  int different = 0;
+  int count = 0;
+  for (const long precision : {24L, 117L, 300L, 1100L}) {
+    for (const double x : {1.0, 0x1.3p-3, 0x1.921fb54442d18p9, 0x1p-1000, 0x1.8p1000}) {
+      for (const double y :
+           {1.0, 0x1.fffffffffffffp-1, 0x1.7p-5, 0x1.3p-18, 0x1p-19, 0x1.8p-21, 0x1p-400, 0x1.1p500}) {
+        for (const double re : {x, -x}) {
+          for (const double im : {x * y, -x * y}) {
+            if (im == 0 || std::isinf(im)) continue;
+            for (const bool turned : {false, true}) {
+              MpfrValue a(53), b(53), got(precision), want(precision);
+              mpfr_set_d(a, turned ? re : im, nearest);
+              mpfr_set_d(b, turned ? im : re, nearest);
+              oracle::angle_of(got, a, b);
+              mpfr_atan2(want, a, b, nearest);
+              ++count;
+              different += mpfr_equal_p(got, want) == 0 ? 1 : 0;
+              expect_within_an_ulp(got, want, "argument", re, im);
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(count, 1000);
+  EXPECT_LE(different, count / 20);
+}
+
+// On both sides of where the first term of the series for large arguments takes over, in either sign.
+TEST(BesselFunctions, OfHugeArgumentsAreThoseOfMpfr) {
+  const WideExponentRange range;
+  for (const long precision : {24L, 96L, 256L}) {
+    for (const long order : {0L, 1L, 2L, 3L, 10L, 100L}) {
+      for (const double mantissa : {1.25, -0x1.921fb54442d18p0}) {
+        for (const long exponent : {400L, 452L, 460L, 700L, 702L, 720L, 4000L}) {
+          std::vector<MpfrValue> args, got;
+          for (int i = 0; i < 2; ++i) args.emplace_back(64);
+          mpfr_set_si(args[0], order, nearest);
+          mpfr_set_d(args[1], mantissa, nearest);
+          mpfr_mul_2si(args[1], args[1], exponent, nearest);
+          got.emplace_back(precision);
+          exact_value(info_of(FunctionId::cyl_bessel_j), args, got);
+          MpfrValue want(precision);
+          mpfr_jn(want, order, args[1], nearest);
+          expect_within_an_ulp(got[0], want, "Bessel function", mantissa, static_cast<double>(exponent));
+        }
+      }
     }
   }
 }

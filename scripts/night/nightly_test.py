@@ -89,7 +89,7 @@ def test_a_night_says_what_it_did_and_its_checksums_are_right(through):
     out, said = through
     facts = status(out)
     assert facts["state"] == "complete" and not facts["left"] and not facts["running"]
-    assert len(facts["done"]) == facts["jobs"] > 30
+    assert len(facts["done"]) == facts["jobs"] > 8
     assert (
         f"{facts['jobs']} of {facts['jobs']} jobs done"
         in (out / "status.txt").read_text()

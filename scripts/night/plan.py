@@ -50,7 +50,7 @@ def options_of(words, doc):
         "--size",
         choices=sorted(SIZES),
         default="night",
-        help="small: minutes, to try it",
+        help="small: less than a minute, to try it",
     )
     p.add_argument(
         "--types", default="all", metavar="LIST", help="default all that were built"

@@ -1,0 +1,12 @@
+// Complex powers, where MPC's own search for exact results without end in sight.
+#pragma once
+
+#include "reference/oracle/oracle.hpp"
+
+namespace ulpgate::oracle {
+
+// out = z^w = exp(w log z), on C99's branch; either part within 2^-24 ulp before its last rounding.  Of a
+// power beyond MPFR's range the parts are infinities or zeros with the signs that they have.
+ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding);
+
+}  // namespace ulpgate::oracle
