@@ -18,6 +18,10 @@
 #pragma clang diagnostic ignored "-Wunused-function"
 #endif
 
+// What many functions have in common and takes hundreds of operations: a call is nothing beside it, and its
+// code in each of them was half of what this file took to compile.
+#define ULPGATE_APART [[gnu::noinline]] inline
+
 namespace ulpgate::complex_dd {
 
 namespace {
