@@ -83,7 +83,7 @@ long gegenbauer(long n, long m, mpfr_srcptr c, MpfrValue& now) {
 // rounding.
 void normalized_legendre(long n, long m, mpfr_srcptr theta, MpfrValue& result) {
   const long wanted = mpfr_get_prec(result) + 32;
-  // Bounds grow like the recurrence without its signs, at most by 1 + sqrt(2) from step to step.
+  // Bounds grow like the recurrence without its signs: for m = 0 by this much from step to step.
   const double z = std::fabs(std::cos(mpfr_get_d(theta, nearest)));
   const double growth = std::isfinite(z) ? std::log2(z + std::sqrt(1 + z * z)) : 0;
   long bits = wanted + 16 + static_cast<long>(growth * static_cast<double>(n - m));
@@ -114,10 +114,6 @@ void normalized_legendre(long n, long m, mpfr_srcptr theta, MpfrValue& result) {
   mpfr_sqrt(c, c, nearest);
   mpfr_mul(result, value, c, nearest);
 }
-
-}  // namespace
-
-namespace {
 
 // J_n(x) by the first term of Hankel's series, sqrt(2 / (pi x)) cos(x - n pi/2 - pi/4) (DLMF 10.17.3), for x
 // so large that the second one, (4n^2 - 1) / (8x) of it, is nothing: 2^-200 of an ulp, for sines and cosines

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "reference/oracle/oracle.hpp"
 #include "reference/oracle/oracle_angles.hpp"
@@ -217,6 +218,41 @@ TEST(BesselFunctions, OfHugeArgumentsAreThoseOfMpfr) {
           MpfrValue want(precision);
           mpfr_jn(want, order, args[1], nearest);
           expect_within_an_ulp(got[0], want, "Bessel function", mantissa, static_cast<double>(exponent));
+        }
+      }
+    }
+  }
+}
+
+// Parts at few bits are those at many, next to the poles, the equator and zeros of P_2 and P_3 as well, where
+// the bound of the recurrence's errors asks for more bits.
+TEST(SphericalHarmonics, AtFewBitsAreThoseAtMany) {
+  const WideExponentRange range;
+  const auto parts = [](long n, long m, double theta, long precision) {
+    std::vector<MpfrValue> args, out;
+    for (int i = 0; i < 4; ++i) args.emplace_back(53);
+    mpfr_set_si(args[0], n, nearest);
+    mpfr_set_si(args[1], m, nearest);
+    mpfr_set_d(args[2], theta, nearest);
+    mpfr_set_d(args[3], 0.7, nearest);
+    for (int i = 0; i < 2; ++i) out.emplace_back(precision);
+    exact_value(info_of(FunctionId::spherical_harmonic), args, out);
+    return out;
+  };
+  for (const long n : {0L, 1L, 2L, 3L, 7L, 40L, 100L}) {
+    for (const long m : {0L, 1L, -2L, 7L, 39L, -100L}) {
+      if (std::labs(m) > n) continue;
+      for (const double theta : {0x1p-300, 0x1p-20, 0.3, std::acos(std::sqrt(1.0 / 3)),
+                                 std::acos(std::sqrt(0.6)), 1.5, 0x1.921fb54442d18p0, 0x1.921fb54442d18p1}) {
+        const auto many = parts(n, m, theta, 2000);
+        for (const long precision : {56L, 96L, 245L}) {
+          const auto few = parts(n, m, theta, precision);
+          for (std::size_t part = 0; part < 2; ++part) {
+            MpfrValue want(precision);
+            mpfr_set(want, many[part], nearest);
+            expect_within_an_ulp(few[part], want, "spherical harmonic", static_cast<double>(n),
+                                 static_cast<double>(m));
+          }
         }
       }
     }
