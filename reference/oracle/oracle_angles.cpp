@@ -3,7 +3,6 @@
 
 #include <gmp.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "reference/types/mpfr_value.hpp"
@@ -27,8 +26,8 @@ class MpzValue {
   mpz_t value_;
 };
 
-// Below this exponent MPFR's own reduction costs less; above the last one the bits of 2/pi are too many to
-// keep.
+// Below this exponent MPFR's own reduction has a few words more to divide; above the last one the bits of
+// 2/pi are too many to keep.
 constexpr mpfr_exp_t least_far = 200;
 constexpr mpfr_exp_t greatest_far = mpfr_exp_t{1} << 20U;
 

@@ -1,5 +1,5 @@
-// Sines of huge angles and arguments of complex numbers to nearly the last bit, several times faster than
-// MPFR, which rounds them correctly.
+// Sines of huge angles and arguments of complex numbers to nearly the last bit, for less than MPFR takes to
+// round them correctly.
 #pragma once
 
 #include <mpfr.h>

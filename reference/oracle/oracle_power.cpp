@@ -2,9 +2,9 @@
 #include "reference/oracle/oracle_power.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "reference/oracle/oracle_angles.hpp"
 #include "reference/oracle/rounding_made.hpp"

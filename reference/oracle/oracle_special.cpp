@@ -2,11 +2,9 @@
 #include "reference/oracle/oracle_special.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
-#include <vector>
 
 #include "reference/oracle/oracle_angles.hpp"
 
