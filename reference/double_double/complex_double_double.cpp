@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -125,6 +126,47 @@ struct Format<Binary128> {
 };
 #endif
 
+template <class W>
+[[maybe_unused]] int exponent_of(W x) {
+#ifdef ULPGATE_HAVE_FLOAT128
+  if constexpr (std::same_as<W, Binary128>)
+    return static_cast<int>(std::bit_cast<unsigned __int128>(x) >> 112U & 0x7fffU) - 16383;
+#endif
+  return std::ilogb(static_cast<long double>(x));
+}
+// Multiplies what is beyond double's exponents, and no infinity, by a power of two that it gives the exponent
+// of: it is then below 2^-700, or below 2^900.
+template <class W>
+[[maybe_unused]] int lift(W& x) {
+  if (x == 0 || !((x < 0 ? -x : x) < W(0x1p-900))) return 0;
+  const int k = -700 - exponent_of(x);
+  x *= power_of_two(W(), k);
+  return k;
+}
+template <class W>
+[[maybe_unused]] int lower(W& x) {
+  if (x - x != 0 || (x < 0 ? -x : x) <= W(0x1p900)) return 0;
+  const int k = 800 - exponent_of(x);
+  x *= power_of_two(W(), k);
+  return k;
+}
+// Has special functions evaluated at numbers that are nearer to 1, where they follow powers of tiny or huge
+// ones: the parts' scales times 2^shift.  J_n(x) is (x/2)^n / n!, a spherical harmonic has the factors
+// theta^|m| and, in its imaginary part, phi, each but for 2^-1300 of it; a Laguerre polynomial is its last
+// term but for 2^-600, or its value at 0 but for 2^-600.
+template <FunctionId id, class W>
+void bring_near([[maybe_unused]] W* a, [[maybe_unused]] double* shift) {
+  if constexpr (id == FunctionId::cyl_bessel_j) shift[0] = -lift(a[1]) * static_cast<double>(a[0]);
+  if constexpr (id == FunctionId::laguerre) {
+    lift(a[2]);
+    shift[0] = -lower(a[2]) * static_cast<double>(a[0]);
+  }
+  if constexpr (id == FunctionId::spherical_harmonic) {
+    shift[0] = -lift(a[2]) * std::fabs(static_cast<double>(a[1]));
+    shift[1] = shift[0] - lift(a[3]);
+  }
+}
+
 // Half an ulp of W for what is rounded to it, and the pair's own, relatively 2^-99 each.
 template <class W, FunctionId id>
 void extended(const W* args, W* results, double* bounds, std::size_t count, int argument_bits) {
@@ -132,6 +174,9 @@ void extended(const W* args, W* results, double* bounds, std::size_t count, int 
   static const auto arity = static_cast<std::size_t>(info_of(id).arity);
   static const auto parts = static_cast<std::size_t>(info_of(id).parts);
   constexpr double least = -16300;
+  constexpr double farthest = 25000;
+  // Its zeros do not come from arguments that a pair has no number for.
+  constexpr bool keeps_zeros = id == FunctionId::spherical_harmonic;
   constexpr double ulps = Format<W>::bits > double_double_bits ? 0x1p14 : 0x1p-34;
   constexpr std::size_t block = 64;
   std::array<DoubleDouble, max_arity * block> pairs;
@@ -139,19 +184,35 @@ void extended(const W* args, W* results, double* bounds, std::size_t count, int 
   std::array<double, max_parts * block> scales{};
   for (std::size_t first = 0; first < count; first += block) {
     const std::size_t n = std::min(block, count - first);
-    for (std::size_t k = 0; k < n * arity; ++k) {
-      const W x = args[first * arity + k];
-      const auto high = static_cast<double>(x);
-      pairs[k] = {high, high - high == 0 ? static_cast<double>(x - static_cast<W>(high)) : 0};
+    std::array<double, max_parts * block> shifts{};
+    for (std::size_t i = 0; i < n; ++i) {
+      std::array<W, max_arity> point{};
+      std::copy_n(args + (first + i) * arity, arity, point.begin());
+      bring_near<id>(point.data(), &shifts[i * parts]);
+      for (std::size_t k = 0; k < arity; ++k) {
+        const W x = point[k];
+        const auto high = static_cast<double>(x);
+        pairs[i * arity + k] = {high, high - high == 0 ? static_cast<double>(x - static_cast<W>(high)) : 0};
+      }
     }
     double* bound = bounds + first * parts;
     scaled(pairs.data(), values.data(), scales.data(), bound, n, argument_bits);
     for (std::size_t k = 0; k < n * parts; ++k) {
       const DoubleDouble value = values[k];
-      const double exponent =
-          value.hi != 0 && value.hi - value.hi == 0 ? scales[k] + std::ilogb(value.hi) : least - 1;
+      scales[k] += shifts[k];
+      const bool finite = value.hi != 0 && value.hi - value.hi == 0;
+      const double exponent = finite ? scales[k] + std::ilogb(value.hi) : 0;
+      // What double has no number for, and what W has none for, is told as by a pair.
+      const bool told = bound[k] >= 0 && (finite ? std::fabs(exponent) > farthest : bound[k] == 2);
+      if (told || (keeps_zeros && bound[k] == 0 && value.hi == 0)) {
+        const bool small = finite ? exponent < 0 : value.hi == 0;
+        const double size = small ? 0 : std::numeric_limits<double>::infinity();
+        results[first * parts + k] = static_cast<W>(std::copysign(size, value.hi));
+        bound[k] = told ? 2 : 0;
+        continue;
+      }
       const bool known =
-          bound[k] >= 0 && exponent > least && exponent < -least && std::fabs(scales[k]) < -least;
+          finite && bound[k] >= 0 && std::fabs(exponent) < -least && std::fabs(scales[k]) < -least;
       results[first * parts + k] = known ? (static_cast<W>(value.hi) + static_cast<W>(value.lo)) *
                                                power_of_two(W(), static_cast<int>(scales[k]))
                                          : W(0);

@@ -113,9 +113,9 @@ TEST(DoubleDoubleFunctions, KeepTheirBoundsOnEveryProcessor) {
     std::vector<MpfrValue> exact_args;
     for (std::size_t k = 0; k < arity_of(f); ++k) exact_args.emplace_back(2200);
     std::vector<MpfrValue> exact;
-    // Exact are sums and products of numbers of 2^-400 to 2^400.
+    // Exact are sums and products of numbers of 2^-400 to 2^400, and 1 + m - x.
     for (std::size_t part = 0; part < parts_of(f); ++part)
-      exact.emplace_back(f.id <= FunctionId::fma ? 2000 : 400);
+      exact.emplace_back(f.id <= FunctionId::fma || f.id == FunctionId::laguerre ? 2000 : 400);
     // Of every processor's results at once: the exact value takes longest.
     std::vector<OfLevel> levels(instruction_levels());
     for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -253,7 +253,8 @@ TEST(DoubleDoubleFunctions, TellWhatIsNoNumber) {
         ++told;
         // Of a wider type's number that is beyond double nothing is told.
         function(args.data(), results.data(), bounds.data(), 1, 64);
-        EXPECT_TRUE(bound < 0 || bound == 2 || (!std::isnan(result.hi) && result.hi != 0))
+        const bool zero_of_indices = f.id == FunctionId::spherical_harmonic && bound == 0;
+        EXPECT_TRUE(bound < 0 || bound == 2 || zero_of_indices || (!std::isnan(result.hi) && result.hi != 0))
             << f.name << '(' << x << ", " << y << ')';
       }
     }

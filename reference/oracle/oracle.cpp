@@ -95,6 +95,16 @@ ExactParts parts_by_flag() {
   return {Exactness::exact, Exactness::exact};
 }
 
+// Of special functions; what an L_n^m is not can be told without its value.  J_n is transcendental at
+// algebraic numbers but 0 (C. L. Siegel, "Transcendental Numbers", 1949, chapter II).
+ExactParts special_parts(const FunctionInfo& f, std::span<const MpfrValue> a, mpfr_srcptr value) {
+  if (f.id == FunctionId::cyl_bessel_j && mpfr_regular_p(a[1].get()) != 0)
+    return {Exactness::rounded, Exactness::unknown};
+  if (f.id == FunctionId::laguerre && mpfr_inexflag_p() != 0 && oracle::is_rounded_laguerre(a, value))
+    return {Exactness::rounded, Exactness::unknown};
+  return parts_by_flag();
+}
+
 // polar(r, t) = (r cos t, r sin t); 32 guard bits make the product's error 2^-31 ulp at most.
 ExactParts polar(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
   MpfrValue s(mpfr_get_prec(out[0]) + 32);
@@ -188,7 +198,7 @@ ExactParts evaluate(const FunctionInfo& f, std::span<const MpfrValue> a, std::sp
 #define SPECIAL1(token, d0) \
   case FunctionId::token:   \
     oracle::token(a, out);  \
-    return parts_by_flag();
+    return special_parts(f, a, out[0]);
 #define SPECIAL2(token, d0, d1, hard) SPECIAL1(token, d0)
 #define SPECIAL3(token, d0, d1, d2) SPECIAL1(token, d0)
 #define SPECIAL4_COMPLEX(token, d0, d1, d2, d3) SPECIAL1(token, d0)

@@ -34,26 +34,34 @@ bool is_of_modulus_one(mpc_srcptr z) {
   return mpc_norm(norm, z, nearest) == 0 && mpfr_cmp_ui(norm, 1) == 0;
 }
 
+// A part of a power beyond MPFR's range, which is no zero though its modulus has become one.
+void mark_vanished(Exactness& exactness, mpfr_srcptr part, mpfr_srcptr direction) {
+  if (mpfr_zero_p(part) != 0 && mpfr_zero_p(direction) == 0) exactness = Exactness::rounded;
+}
+
 // |z^w| (cos t + i sin t) where t is the exact multiple Re(w) eighths of pi/4, so that exact zeros are zeros.
-void power_by_turns(mpc_ptr out, mpc_srcptr log_power, mpfr_srcptr re_w, int eighths) {
+ExactParts power_by_turns(mpc_ptr out, mpc_srcptr log_power, mpfr_srcptr re_w, int eighths) {
   MpfrValue half_turns(mpfr_get_prec(re_w) + 4);
   mpfr_mul_si(half_turns, re_w, eighths, nearest);
   mpfr_div_2ui(half_turns, half_turns, 2, nearest);
   MpfrValue modulus(mpc_get_prec(log_power));
   MpfrValue direction(mpc_get_prec(log_power));
   mpfr_exp(modulus, mpc_realref(log_power), nearest);
-  const auto set_part = [&](mpfr_ptr part) {
+  ExactParts parts = not_known;
+  const auto set_part = [&](mpfr_ptr part, Exactness& exactness) {
     // A modulus beyond the range does not make an exact zero undefined.
     if (mpfr_zero_p(direction)) {
       mpfr_set(part, direction, nearest);
     } else {
       mpfr_mul(part, modulus, direction, nearest);
+      mark_vanished(exactness, part, direction);
     }
   };
   mpfr_cospi(direction, half_turns, nearest);
-  set_part(mpc_realref(out));
+  set_part(mpc_realref(out), parts[0]);
   mpfr_sinpi(direction, half_turns, nearest);
-  set_part(mpc_imagref(out));
+  set_part(mpc_imagref(out), parts[1]);
+  return parts;
 }
 
 // ln|z|, with all of its bits next to |z| = 1 as well: there of |z|^2 - 1 = (l - 1)(l + 1) + s^2, l the
@@ -183,8 +191,9 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
       continue;
     }
     if (eighths) {
-      power_by_turns(out, log_power.value(), mpc_realref(w), *eighths);
-      return log_power.exactness(mpc_realref(out));
+      ExactParts parts = power_by_turns(out, log_power.value(), mpc_realref(w), *eighths);
+      if (parts[0] == Exactness::unknown) parts[0] = log_power.exactness(mpc_realref(out))[0];
+      return parts;
     }
     MpfrValue sine(bits + 32);
     MpfrValue cosine(bits + 32);
@@ -200,7 +209,10 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
     mpfr_exp(modulus, mpc_realref(log_power.value()), nearest);
     mpfr_mul(mpc_realref(out), modulus, cosine, nearest);
     mpfr_mul(mpc_imagref(out), modulus, sine, nearest);
-    return log_power.exactness(mpc_realref(out));
+    ExactParts parts = log_power.exactness(mpc_realref(out));
+    mark_vanished(parts[0], mpc_realref(out), cosine);
+    mark_vanished(parts[1], mpc_imagref(out), sine);
+    return parts;
   }
 }
 

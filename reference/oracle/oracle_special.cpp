@@ -191,6 +191,19 @@ void laguerre(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
   mpz_clear(binomial);
 }
 
+bool is_rounded_laguerre(std::span<const MpfrValue> a, mpfr_srcptr value) {
+  const auto last_bit = [](mpfr_srcptr x) { return static_cast<long>(mpfr_get_exp(x) - mpfr_min_prec(x)); };
+  mpfr_srcptr x = a[2];
+  const long n = integer(a[0]);
+  if (n < 1 || mpfr_regular_p(x) == 0 || mpfr_regular_p(value) == 0) return false;
+  if (n == 1) {
+    MpfrValue sum(mpfr_get_prec(value));
+    const int ternary = mpfr_si_sub(sum, 1 + integer(a[1]), x, nearest);
+    return ternary != 0 || mpfr_equal_p(sum, value) == 0;
+  }
+  return last_bit(x) < 0 && last_bit(value) != last_bit_of_laguerre(n, last_bit(x));
+}
+
 void spherical_harmonic(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
   const long n = integer(a[0]);
   const long m = integer(a[1]);

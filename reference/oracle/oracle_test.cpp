@@ -323,6 +323,21 @@ TEST(Oracle, LaguerrePolynomialsAtInfinitiesAreTheirLeadingTerms) {
   EXPECT_TRUE(std::isnan(at("3", "@NaN@")));
 }
 
+// Rounded to 250 bits they look like numbers that they are not.
+TEST(Oracle, LaguerrePolynomialsTellWhatTheyAreNot) {
+  const auto exactness = [](const char* n, const char* m, const char* x) {
+    std::vector<MpfrValue> out;
+    out.emplace_back(bits);
+    return exact_value(info_of(FunctionId::laguerre), vector({n, m, x}), out)[0];
+  };
+  EXPECT_EQ(exactness("42", "2", "-0x1.eaa764e86cd6ep-439"), Exactness::rounded) << "946 and 2^-430";
+  EXPECT_EQ(exactness("1", "80", "0x1.f27e3617d7e4cp+401"), Exactness::rounded) << "81 less 2^401";
+  EXPECT_EQ(exactness("3", "0", "0.5"), Exactness::rounded) << "-7/48";
+  EXPECT_FALSE(is_rounded(exactness("1", "80", "0x1p-40")));
+  EXPECT_FALSE(is_rounded(exactness("2", "3", "0.5"))) << "7.625";
+  EXPECT_EQ(exactness("0", "5", "0x1p-900"), Exactness::exact);
+}
+
 TEST(Oracle, ComplexPowersNextToTheAxesKeepTheirSmallPart) {
   // (-1)^(1 + i e) = -exp(-pi e), exactly real.
   const auto turn = exact(FunctionId::cpow, {"-1", "0", "1", "0x1p-1074"});

@@ -1,11 +1,14 @@
 // Whether a result that a cheap reference cannot tell from the exact value is the exact value.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "reference/functions/function_info.hpp"
 #include "reference/oracle/oracle.hpp"
+#include "reference/oracle/oracle_special.hpp"
 #include "reference/types/real_types.hpp"
 
 namespace ulpgate {
@@ -28,6 +31,23 @@ template <NativeReal Real>
 
 [[nodiscard]] inline Exactness rounded_if(bool condition) {
   return condition ? Exactness::rounded : Exactness::unknown;
+}
+
+// The exponent of the last bit of x, which is finite and not 0.
+template <NativeReal Real>
+[[nodiscard]] int last_exponent(Real x) {
+  constexpr int digits = std::numeric_limits<Real>::digits;
+  int exponent = 0;
+  const auto fraction = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::fabs(x), &exponent), digits));
+  return exponent - digits + std::countr_zero(fraction);
+}
+
+template <NativeReal Real>
+[[nodiscard]] Exactness exactness_of_laguerre(Real n, Real x, Real got) {
+  if (!(n >= 1 && n < 10000) || x == 0 || got == 0 || !std::isfinite(got)) return Exactness::unknown;
+  const int last = last_exponent(x);
+  if (last >= 0) return Exactness::unknown;
+  return rounded_if(last_exponent(got) != oracle::last_bit_of_laguerre(static_cast<long>(n), last));
 }
 
 }  // namespace detail
@@ -124,6 +144,12 @@ template <NativeReal Real>
     case FunctionId::sqrt:
       if (!detail::has_residual(x)) return Exactness::unknown;
       return std::fma(got, got, -x) == 0 ? Exactness::exact : Exactness::rounded;
+    case FunctionId::cyl_bessel_j:
+      // At algebraic numbers but 0 it is transcendental (C. L. Siegel, "Transcendental Numbers", 1949,
+      // chapter II).
+      return rounded_if(a[1] != 0 && std::isfinite(a[1]));
+    case FunctionId::laguerre:
+      return detail::exactness_of_laguerre(a[0], a[2], got);
     default:
       return Exactness::unknown;
   }

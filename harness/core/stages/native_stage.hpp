@@ -23,6 +23,7 @@ class NativeStage {
   NativeStage(FunctionId f, BoundedFunction<W> function)
       : id_(f),
         parts_(static_cast<std::size_t>(info_of(f).parts)),
+        is_real_(info_of(f).function_class == FunctionClass::real),
         unsigned_zeros_(info_of(f).function_class == FunctionClass::special),
         function_(function) {}
   [[nodiscard]] bool exists() const { return function_ != nullptr; }
@@ -96,7 +97,8 @@ class NativeStage {
     const bool exact = bound == 0 && static_cast<W>(rounded) == difference && (neighbours || difference == 0);
     const double error = std::fabs(scaled(difference, p - 1 - grid));
     const double own_slack = bound * unit + error * 0x1p-48;
-    const bool inexact = !exact && error > own_slack;
+    // A known error may be too small for RealHP<4> as well.
+    const bool inexact = exact ? difference != 0 : error > own_slack;
     // Of a pair next to a number of Real a bound may say more than RealHP<4> has bits for.
     const double slack = exact ? 0 : std::same_as<W, DoubleDouble> ? own_slack + full_slack<Real> : own_slack;
     double least = error - slack;
@@ -212,11 +214,11 @@ class NativeStage {
   [[nodiscard]] bool find_special(const Real* args, const NumberBits& bits, W value, double bound, Real got,
                                   Finding& finding) const {
     using L = std::numeric_limits<Real>;
-    if (std::isnan(got) || value != value) {
-      if (!std::isnan(got) || value == value) return false;
-      finding = finding_of({});
+    if (std::isnan(got)) {
+      finding = finding_of(value == value ? Judgement{Outcome::nan, {}, 0, false} : Judgement{});
       return true;
     }
+    if (value != value) return false;
     // A zero of the other sign is one for all numbers that round to zero; it is no rare find, a library that
     // knows no signs of zeros gives it for millions of floats.
     const bool other_sign = std::signbit(got) != signbit_of(value);
@@ -233,8 +235,11 @@ class NativeStage {
     }
     // |value| < 2^(exponent + 1), in units of the least subnormal.
     constexpr int least = L::min_exponent - L::digits;
+    // A zero that has a bound is none: all functions but real ones tell such (complex_parts.inc).
+    const bool told_small = !is_real_ && value == 0 && bound > 0;
     const int zero = bound == 2 ? -20000 : double_double_zero;
-    const int exponent = std::same_as<W, DoubleDouble> && value == 0 ? zero : bits.exponent;
+    const bool told_size = told_small || std::same_as<W, DoubleDouble>;
+    const int exponent = told_size && value == 0 ? zero : bits.exponent;
     const int size = exponent + 1 - least;
     if (size > (gradual ? 0 : -20)) return false;
     if (gradual && size > -20) {
@@ -245,11 +250,10 @@ class NativeStage {
       if (other_sign) finding = zero_of_other_sign();
       return true;
     }
-    // A zero of W may be an exact one.
-    if (!bits.normal && !(is_never_zero(id_) && std::isfinite(args[0]))) return false;
+    // Another zero of W may be an exact one.
+    if (!bits.normal && !told_small && !(is_never_zero(id_) && std::isfinite(args[0]))) return false;
     // Nor is a zero for numbers of W's own range that the stage does not give (double_lanes.hpp).
-    const bool known_size = bits.normal || std::same_as<W, DoubleDouble>;
-    const double greatest = power_of_two(std::max(size, known_size ? -900 : -700) + 1);
+    const double greatest = power_of_two(std::max(size, bits.normal || told_size ? -900 : -700) + 1);
     finding = {Outcome::finite, smallest_error, greatest, 0, true, true};
     if (other_sign) finding = zero_of_other_sign();
     return true;
@@ -261,6 +265,7 @@ class NativeStage {
 
   FunctionId id_;
   std::size_t parts_;
+  bool is_real_;
   bool unsigned_zeros_;
   BoundedFunction<W> function_;
   std::vector<W> args_;

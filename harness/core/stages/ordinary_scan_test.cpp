@@ -291,5 +291,36 @@ TEST(ExactResults, ArePassedOverWhereTheResidualUnderflows) {
   EXPECT_EQ(exactness_of(FunctionId::mul, whole, 15.0), Exactness::exact);
 }
 
+// By the place of the last bit: L_2^3(x) = 10 - 5x + x^2/2.
+TEST(ExactResults, OfLaguerrePolynomialsAreToldByTheirLastBit) {
+  const double half[] = {2, 3, 0.5};
+  EXPECT_EQ(exactness_of(FunctionId::laguerre, half, 7.625), Exactness::unknown) << "it may be: it is";
+  EXPECT_EQ(exactness_of(FunctionId::laguerre, half, 7.5), Exactness::rounded);
+  EXPECT_EQ(exactness_of(FunctionId::laguerre, half, 7.5625), Exactness::rounded);
+  const double small[] = {2, 3, 0x1p-400};
+  EXPECT_EQ(exactness_of(FunctionId::laguerre, small, 10.0), Exactness::rounded);
+  const double whole[] = {2, 3, 4};
+  EXPECT_EQ(exactness_of(FunctionId::laguerre, whole, -2.0), Exactness::unknown);
+  const long double wide[] = {2, 3, 0x1.8p-1L};
+  EXPECT_EQ(exactness_of(FunctionId::laguerre, wide, 0x1p-5L), Exactness::unknown) << "9/32 is the last term";
+  EXPECT_EQ(exactness_of(FunctionId::laguerre, wide, 0x1p-62L), Exactness::rounded);
+}
+
+// A library that has no value where there is one: no better reference is asked.
+TEST(NativeStage, TellsNanForAValue) {
+  const std::vector<double> args = {60, 40, 0x1p900, 2, 3, 0.5};
+  NativeStage<double, DoubleDouble, Stage::double_double> stage(FunctionId::laguerre,
+                                                                double_double_function(FunctionId::laguerre));
+  stage.load(args, 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    Finding finding;
+    ASSERT_TRUE(stage.find(i, 0, &args[3 * i], std::nan(""), finding)) << i;
+    EXPECT_EQ(finding.outcome, Outcome::nan);
+  }
+  Finding finding;
+  ASSERT_TRUE(stage.find(0, 0, args.data(), HUGE_VAL, finding));
+  EXPECT_EQ(finding.outcome, Outcome::finite);
+}
+
 }  // namespace
 }  // namespace ulpgate
