@@ -97,12 +97,13 @@ Wide real_condition(FunctionId id, const Wide* a, Wide v) {
 
 // (|x Re d| + |y Im d|) and (|x Im d| + |y Re d|) for f'(z) = d: the Cauchy-Riemann equations; less what may
 // have cancelled in a part of d.
-Wide sensitivity(Complex z, Complex d, int part) {
-  const Wide lost = cancelling * std::abs(d);
-  const Wide re = std::max(std::fabs(d.real()) - lost, nothing);
-  const Wide im = std::max(std::fabs(d.imag()) - lost, nothing);
-  const Wide x = std::fabs(z.real());
-  const Wide y = std::fabs(z.imag());
+template <class T>
+T sensitivity(std::complex<T> z, std::complex<T> d, int part) {
+  const T lost = static_cast<T>(cancelling) * std::abs(d);
+  const T re = std::max(std::fabs(d.real()) - lost, T(0));
+  const T im = std::max(std::fabs(d.imag()) - lost, T(0));
+  const T x = std::fabs(z.real());
+  const T y = std::fabs(z.imag());
   return part == 0 ? x * re + y * im : x * im + y * re;
 }
 
@@ -166,6 +167,26 @@ Wide complex_sensitivity(FunctionId id, const Wide* a, int part) {
     default:
       return nothing;
   }
+}
+
+// z^w = e^p (cos q + i sin q), of which the part says e^p: in double, where that has the exponents, and knows
+// q.
+Wide power_condition(const Wide* a, Wide v, int part) {
+  const auto fits = [](Wide x) { return x == 0 || (std::fabs(x) > 0x1p-400L && std::fabs(x) < 0x1p400L); };
+  if (std::all_of(a, a + 4, fits) && (a[0] != 0 || a[1] != 0)) {
+    const std::complex<double> z(static_cast<double>(a[0]), static_cast<double>(a[1]));
+    const std::complex<double> w(static_cast<double>(a[2]), static_cast<double>(a[3]));
+    const std::complex<double> logarithm(0.5 * std::log(std::norm(z)), std::arg(z));
+    const double q = w.imag() * logarithm.real() + w.real() * logarithm.imag();
+    const double error =
+        0x1p-48 * (std::fabs(w.imag()) * (1 + std::fabs(logarithm.real())) + 4 * std::fabs(w.real()));
+    const std::complex<double> direction(std::cos(q), std::sin(q));
+    const double size = std::fabs(part == 0 ? direction.real() : direction.imag());
+    if (error < 0x1p-32 && size > 0x1p-12)
+      return (sensitivity(z, direction * w / z, part) + sensitivity(w, direction * logarithm, part)) /
+             (size + 0x1p-30);
+  }
+  return complex_sensitivity(FunctionId::cpow, a, part) / v;
 }
 
 // |x J_n'(x)| = |x J_(n-1) - n J_n| (DLMF 10.6.2); the library's J is good to its amplitude only.
@@ -243,6 +264,8 @@ double condition_lower_bound(const FunctionInfo& f, const long double* args, lon
   Wide condition = 0;
   if (f.function_class == FunctionClass::real) {
     condition = real_condition(f.id, args, value);
+  } else if (f.id == FunctionId::cpow) {
+    condition = power_condition(args, value, part);
   } else if (f.function_class == FunctionClass::complex) {
     condition = complex_sensitivity(f.id, args, part) / value;
   } else if (f.id == FunctionId::cyl_bessel_j) {

@@ -134,6 +134,17 @@ void arc_tangent_of_ratio(mpfr_ptr out, mpfr_srcptr y, mpfr_srcptr x) {
 
 }  // namespace
 
+bool reduce_to_quadrant(unsigned& quadrant, mpfr_ptr r, mpfr_srcptr x, long bits) {
+  if (mpfr_regular_p(x) != 0 && mpfr_get_exp(x) > greatest_far) return false;
+  if (mpfr_regular_p(x) == 0 || mpfr_get_exp(x) < 0) {
+    quadrant = 0;
+    mpfr_set(r, x, nearest);
+  } else {
+    quadrant = reduce(r, x, bits);
+  }
+  return true;
+}
+
 void sine_and_cosine(mpfr_ptr s, mpfr_ptr c, mpfr_srcptr x) {
   if (mpfr_regular_p(x) == 0 || mpfr_get_exp(x) < least_far || mpfr_get_exp(x) > greatest_far) {
     mpfr_sin_cos(s, c, x, nearest);

@@ -11,6 +11,10 @@ namespace ulpgate::oracle {
 // divides by pi to all of them.
 void sine_and_cosine(mpfr_ptr s, mpfr_ptr c, mpfr_srcptr x);
 
+// x = (4k + quadrant) pi/2 + r, |r| <= pi/4, r within 2^-bits of x and its own last rounding.  False, and
+// nothing else, where the exponent of x is above 2^20.
+bool reduce_to_quadrant(unsigned& quadrant, mpfr_ptr r, mpfr_srcptr x, long bits);
+
 // arg(x + iy), within 2^-4 ulp before its last rounding.  `out` is neither x nor y.
 void angle_of(mpfr_ptr out, mpfr_srcptr y, mpfr_srcptr x);
 

@@ -2,7 +2,10 @@
 #include "reference/oracle/oracle_power.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -64,6 +67,85 @@ ExactParts power_by_turns(mpc_ptr out, mpc_srcptr log_power, mpfr_srcptr re_w, i
   return parts;
 }
 
+// Logarithms of numbers r = 1 + k / 2^shift next to 1, of this thread, made where they are asked for and
+// again where more of their bits are.
+class LogarithmsNextTo1 {
+ public:
+  explicit LogarithmsNextTo1(unsigned shift) : shift_(shift) {}
+  mpfr_srcptr at(long k, mpfr_prec_t bits) {
+    MpfrValue& value = values_.try_emplace(k, MPFR_PREC_MIN).first->second;
+    if (mpfr_get_prec(value) < bits) {
+      mpfr_set_prec(value, bits + bits / 4);
+      MpfrValue r(64);
+      mpfr_set_si_2exp(r, k, -static_cast<mpfr_exp_t>(shift_), nearest);
+      mpfr_log1p(value, r, nearest);
+    }
+    return value;
+  }
+
+ private:
+  unsigned shift_;
+  std::map<long, MpfrValue> values_;
+};
+
+}  // namespace
+
+void logarithm_of(mpfr_ptr out, mpfr_srcptr x) {
+  const mpfr_prec_t bits = mpfr_get_prec(out) + 32;
+  // x = 2^e m, m in [2/3, 4/3); times three numbers r it is 1 + t, |t| < 2^-8, 2^-16 and 2^-24 in turn.
+  MpfrValue t(bits);
+  mpfr_set(t, x, nearest);
+  mpfr_exp_t e = mpfr_get_exp(t.get());
+  mpfr_set_exp(t, 0);
+  if (mpfr_cmp_d(t, 2.0 / 3) < 0) {
+    mpfr_set_exp(t, 1);
+    --e;
+  }
+  MpfrValue sum(bits), step(bits);
+  mpfr_const_log2(sum, nearest);
+  mpfr_mul_si(sum, sum, e, nearest);
+  static thread_local std::array<LogarithmsNextTo1, 3> tables{LogarithmsNextTo1(8), LogarithmsNextTo1(16),
+                                                              LogarithmsNextTo1(24)};
+  for (unsigned i = 0; i < tables.size(); ++i) {
+    const unsigned shift = 8 * (i + 1);
+    // The first of a number, the others of its distance from 1.
+    const double d = mpfr_get_d(t, nearest);
+    const long k = std::lround(std::ldexp(i == 0 ? 1 / d - 1 : -d, static_cast<int>(shift)));
+    if (k != 0) {
+      mpfr_sub(sum, sum, tables[i].at(k, bits), nearest);
+      // (1 + t)(1 + k 2^-shift) - 1, of the first one 1 + t itself.
+      mpfr_mul_si(step, t, k, nearest);
+      mpfr_div_2ui(step, step, shift, nearest);
+      mpfr_add(t, t, step, nearest);
+      if (i > 0) {
+        mpfr_set_si_2exp(step, k, -static_cast<mpfr_exp_t>(shift), nearest);
+        mpfr_add(t, t, step, nearest);
+      }
+    }
+    if (i == 0) mpfr_sub_ui(t, t, 1, nearest);
+  }
+  // log(1 + t) = 2 artanh s, s = t / (2 + t) (DLMF 4.6.5), a term 2^-48 of the one before it.
+  if (mpfr_regular_p(t.get()) != 0) {
+    MpfrValue square(bits), power(bits);
+    mpfr_add_ui(square, t, 2, nearest);
+    mpfr_div(power, t, square, nearest);
+    mpfr_mul_2ui(power, power, 1, nearest);
+    mpfr_sqr(square, power, nearest);
+    mpfr_div_2ui(square, square, 2, nearest);
+    mpfr_set(t, power, nearest);
+    const mpfr_exp_t least = mpfr_get_exp(t.get()) - static_cast<mpfr_exp_t>(bits) - 2;
+    for (unsigned long odd = 3; mpfr_regular_p(power.get()) != 0; odd += 2) {
+      mpfr_mul(power, power, square, nearest);
+      if (mpfr_get_exp(power.get()) < least) break;
+      mpfr_div_ui(step, power, odd, nearest);
+      mpfr_add(t, t, step, nearest);
+    }
+  }
+  mpfr_add(out, sum, t, nearest);
+}
+
+namespace {
+
 // ln|z|, with all of its bits next to |z| = 1 as well: there of |z|^2 - 1 = (l - 1)(l + 1) + s^2, l the
 // larger part.
 void log_modulus(mpfr_ptr out, mpc_srcptr z) {
@@ -82,8 +164,9 @@ void log_modulus(mpfr_ptr out, mpc_srcptr z) {
       return;
     }
   }
-  mpfr_fmma(out, l, l, s, s, nearest);
-  mpfr_log(out, out, nearest);
+  MpfrValue norm(mpfr_get_prec(out) + 16);
+  mpfr_fmma(norm, l, l, s, s, nearest);
+  logarithm_of(out, norm);
   mpfr_div_2ui(out, out, 1, nearest);
 }
 
@@ -157,6 +240,32 @@ class PowerLogarithm {
   MpcValue value_;
 };
 
+// The parts of a power beyond MPFR's range, e^p (cos q + i sin q), where q is known to less than 2^-known.
+std::optional<ExactParts> signs_of_power(mpc_ptr out, mpc_srcptr log_power, long known) {
+  constexpr long bits = 96;
+  unsigned quadrant = 0;
+  MpfrValue r(64);
+  if (!reduce_to_quadrant(quadrant, r, mpc_imagref(log_power), bits) || mpfr_regular_p(r.get()) == 0 ||
+      -exponent_of(r) > std::min(known, bits - 16))
+    return std::nullopt;
+  const int next_to_0 = mpfr_sgn(r.get());
+  const bool odd = quadrant % 2 == 1;
+  const int turned = quadrant < 2 ? 1 : -1;
+  const int cosine = (odd ? -next_to_0 : 1) * turned;
+  const int sine = (odd ? 1 : next_to_0) * turned;
+  const auto set = [&](mpfr_ptr part, int sign) {
+    if (mpfr_sgn(mpc_realref(log_power)) > 0) {
+      mpfr_set_inf(part, sign);
+    } else {
+      mpfr_set_zero(part, sign);
+    }
+  };
+  set(mpc_realref(out), cosine);
+  set(mpc_imagref(out), sine);
+  return mpfr_sgn(mpc_realref(log_power)) > 0 ? not_known
+                                              : ExactParts{Exactness::rounded, Exactness::rounded};
+}
+
 }  // namespace
 
 ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
@@ -194,6 +303,10 @@ ExactParts power(mpc_ptr out, mpc_srcptr z, mpc_srcptr w, mpc_rnd_t rounding) {
       ExactParts parts = power_by_turns(out, log_power.value(), mpc_realref(w), *eighths);
       if (parts[0] == Exactness::unknown) parts[0] = log_power.exactness(mpc_realref(out))[0];
       return parts;
+    }
+    if (log_power.is_beyond_range()) {
+      if (const auto parts = signs_of_power(out, log_power.value(), guard + log_power.spared_bits() - 80))
+        return *parts;
     }
     MpfrValue sine(bits + 32);
     MpfrValue cosine(bits + 32);

@@ -142,11 +142,68 @@ bool far_bessel(mpfr_ptr out, long n, mpfr_srcptr x) {
   return true;
 }
 
+// sum_k t_k of t_0 = 1, t_(k+1) = -t_k q / ((k + 1)(n + k + 1)), q = x^2/4: J_n(x) / ((x/2)^n / n!)
+// (DLMF 10.2.2). Returns how many of the sum's bits are lost: a term has three roundings for each before it
+// and a sum one, all relative to the largest term; where terms fall, what is left out is less than the first
+// of it (Leibniz).
+long bessel_sum(unsigned long n, mpfr_srcptr q, MpfrValue& sum) {
+  const mpfr_prec_t bits = mpfr_get_prec(sum);
+  MpfrValue term(bits);
+  mpfr_set_ui(term, 1, nearest);
+  mpfr_set_ui(sum, 1, nearest);
+  mpfr_exp_t largest = 1;
+  unsigned long k = 0;
+  do {
+    mpfr_mul(term, term, q, nearest);
+    ++k;
+    mpfr_div_ui(term, term, k * (n + k), nearest);
+    mpfr_neg(term, term, nearest);
+    mpfr_add(sum, sum, term, nearest);
+    largest = std::max(largest, mpfr_get_exp(term.get()));
+  } while (mpfr_get_exp(term.get()) > largest - bits - 2 || mpfr_cmp_ui(q, k * (n + k)) > 0);
+  if (mpfr_regular_p(sum.get()) == 0) return bits;
+  return largest - mpfr_get_exp(sum.get()) + 2 * static_cast<long>(std::bit_width(k)) + 3;
+}
+
+// J_n(x) by its series, for x so small that it takes less than mpfr_jn.  False for other x.
+bool near_bessel(mpfr_ptr out, long n, mpfr_srcptr x) {
+  constexpr double greatest = 50;
+  const double size = std::fabs(mpfr_get_d(x, nearest));
+  if (mpfr_regular_p(x) == 0 || n < 0 || n > 1000 ||
+      !(size < std::max(greatest, 2.0 * static_cast<double>(n))))
+    return false;
+  const long wanted = mpfr_get_prec(out) + 16;
+  // Of all terms' sum, I_n(x) / ((x/2)^n / n!), to that of their signs: e^(2q / (n + 1)) for small x, e^x for
+  // large ones.
+  const double cancels = std::min(0.72 * size * size / static_cast<double>(n + 1), 1.45 * size);
+  long bits = wanted + 24 + static_cast<long>(cancels);
+  MpfrValue sum(bits), q(bits);
+  while (true) {
+    mpfr_sqr(q, x, nearest);
+    mpfr_div_2ui(q, q, 2, nearest);
+    const long lost = bessel_sum(static_cast<unsigned long>(n), q, sum);
+    if (bits - lost >= wanted) break;
+    bits = lost >= bits ? 2 * bits : wanted + lost + 16;
+    mpfr_set_prec(sum, bits);
+    mpfr_set_prec(q, bits);
+  }
+  MpfrValue power(wanted + 16);
+  mpfr_pow_ui(power, x, static_cast<unsigned long>(n), nearest);
+  mpfr_div_2ui(power, power, static_cast<unsigned long>(n), nearest);
+  mpfr_mul(power, power, sum, nearest);
+  mpz_t product;
+  mpz_init(product);
+  mpz_fac_ui(product, static_cast<unsigned long>(n));
+  mpfr_div_z(out, power, product, nearest);
+  mpz_clear(product);
+  return true;
+}
+
 }  // namespace
 
 void cyl_bessel_j(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
   const long n = integer(a[0]);
-  if (!far_bessel(out[0], n, a[1])) mpfr_jn(out[0], n, a[1], nearest);
+  if (!near_bessel(out[0], n, a[1]) && !far_bessel(out[0], n, a[1])) mpfr_jn(out[0], n, a[1], nearest);
 }
 
 void factorial(std::span<const MpfrValue> a, std::span<MpfrValue> out) {

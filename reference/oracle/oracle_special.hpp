@@ -9,9 +9,8 @@
 
 namespace ulpgate::oracle {
 
-// J_n(x), n = args[0] a non-negative integer: mpfr_jn, correctly rounded, but for x from some 2^600 on, which
-// it reduces by as many bits: there the first term of its series for large x, within 2^-24 ulp before its
-// last rounding.
+// J_n(x), n = args[0] a non-negative integer: by its series to about |x| = 2n, by the first term of that for
+// large x from some 2^600 on, both within 2^-16 ulp before the last rounding; between the two mpfr_jn.
 void cyl_bessel_j(std::span<const MpfrValue> args, std::span<MpfrValue> out);
 // n!, correctly rounded.
 void factorial(std::span<const MpfrValue> args, std::span<MpfrValue> out);

@@ -10,6 +10,7 @@
 #include "reference/oracle/oracle_angles.hpp"
 #include "reference/oracle/oracle_erf.hpp"
 #include "reference/oracle/oracle_hyperbolic.hpp"
+#include "reference/oracle/oracle_power.hpp"
 
 namespace ulpgate {
 namespace {
@@ -220,6 +221,47 @@ TEST(BesselFunctions, OfHugeArgumentsAreThoseOfMpfr) {
           expect_within_an_ulp(got[0], want, "Bessel function", mantissa, static_cast<double>(exponent));
         }
       }
+    }
+  }
+}
+
+// Where the terms cancel, next to zeros, and where the series takes over from MPFR.
+TEST(BesselFunctions, OfModerateArgumentsAreThoseOfMpfr) {
+  const WideExponentRange range;
+  for (const long precision : {24L, 96L, 256L}) {
+    for (const long order : {0L, 1L, 10L, 40L, 100L, 1000L}) {
+      for (const double x :
+           {0x1p-900, -0.3, 2.404825557695773, 20.0, -49.9, 50.1, 65.3, 79.9, 80.1, 199.0, 1500.0}) {
+        if (precision == 24 && x > 1000) continue;
+        std::vector<MpfrValue> args, got;
+        for (int i = 0; i < 2; ++i) args.emplace_back(64);
+        mpfr_set_si(args[0], order, nearest);
+        mpfr_set_d(args[1], x, nearest);
+        got.emplace_back(precision);
+        exact_value(info_of(FunctionId::cyl_bessel_j), args, got);
+        MpfrValue want(precision);
+        mpfr_jn(want, order, args[1], nearest);
+        expect_within_an_ulp(got[0], want, "Bessel function", x, static_cast<double>(order));
+      }
+    }
+  }
+}
+
+// Numbers of every size, next to 1 and to what tables are made of.
+TEST(Logarithms, AreThoseOfMpfr) {
+  const WideExponentRange range;
+  std::vector<double> list;
+  for (const double x :
+       {1.0, 2.0 / 3, 4.0 / 3, 1 + 0x1p-9, 1 - 0x1p-16, 1 + 0x1p-24, 1.5, 0.7, 1.9999, 257.0 / 256})
+    for (const double factor : {1 + 0x1p-52, 1 - 0x1p-40, 1 + 0x1p-26, 0x1.8p-900, 0x1.23456789p77})
+      list.push_back(x * factor);
+  for (const long precision : {60L, 1100L, 150L, 400L}) {
+    for (const double x : list) {
+      MpfrValue argument(53), got(precision), want(precision);
+      mpfr_set_d(argument, x, nearest);
+      oracle::logarithm_of(got, argument);
+      mpfr_log(want, argument, nearest);
+      expect_within_an_ulp(got, want, "logarithm", x, static_cast<double>(precision));
     }
   }
 }
