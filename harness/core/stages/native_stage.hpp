@@ -97,10 +97,11 @@ class NativeStage {
     const bool exact = bound == 0 && static_cast<W>(rounded) == difference && (neighbours || difference == 0);
     const double error = std::fabs(scaled(difference, p - 1 - grid));
     const double own_slack = bound * unit + error * 0x1p-48;
-    // A known error may be too small for RealHP<4> as well.
+    // A known error may be one that RealHP<4> has no bits for.
     const bool inexact = exact ? difference != 0 : error > own_slack;
+    const bool known = exact && (difference == 0 || error >= unseen_error);
     // Of a pair next to a number of Real a bound may say more than RealHP<4> has bits for.
-    const double slack = exact ? 0 : std::same_as<W, DoubleDouble> ? own_slack + full_slack<Real> : own_slack;
+    const double slack = known ? 0 : std::same_as<W, DoubleDouble> ? own_slack + full_slack<Real> : own_slack;
     double least = error - slack;
     double greatest = error + slack;
     // Next to a power of two the exact value may lie in the other binade, where the spacing is half or

@@ -306,6 +306,22 @@ TEST(ExactResults, OfLaguerrePolynomialsAreToldByTheirLastBit) {
   EXPECT_EQ(exactness_of(FunctionId::laguerre, wide, 0x1p-62L), Exactness::rounded);
 }
 
+// 87 - x to 111 bits is 2^-104 off, a ninth of x.
+TEST(NativeStage, AllowsForWhatTheFullReferenceIsOffBy) {
+  const FunctionInfo& f = info_of(FunctionId::laguerre);
+  const float args[] = {1, 86, 0x1.ca91f6p-105F};
+  const float result = 87;
+  const std::uint8_t threw = 0;
+  FullJudging<float> full(f);
+  const Batch<float> batch{f, args, {&result, 1}, {&threw, 1}};
+  full.load(batch, 0);
+  NativeStage<float, DoubleDouble, Stage::double_double> stage(f.id, double_double_function(f.id));
+  stage.load(args, 1);
+  Finding finding;
+  ASSERT_TRUE(stage.find(0, 0, args, result, finding));
+  EXPECT_TRUE(finding.allows(full.judgement(batch, 0, 0)));
+}
+
 // A library that has no value where there is one: no better reference is asked.
 TEST(NativeStage, TellsNanForAValue) {
   const std::vector<double> args = {60, 40, 0x1p900, 2, 3, 0.5};
