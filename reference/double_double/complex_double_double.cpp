@@ -30,6 +30,11 @@ namespace {
 using multi_word::least_log_index;
 using multi_word::Terms;
 
+// Beyond these exponents, of 2, a part is told as a zero or an infinity with a bound of 1, or of 2
+// (complex_parts.inc).
+constexpr double far_exponent = 2300;
+constexpr double farthest_exponent = 25000;
+
 // k! = mantissa[k] 2^exponent[k], the mantissa in [1, 2) and within bound[k] ulp.
 struct Factorials {
   static constexpr std::size_t count = 2001;
@@ -174,7 +179,6 @@ void extended(const W* args, W* results, double* bounds, std::size_t count, int 
   static const auto arity = static_cast<std::size_t>(info_of(id).arity);
   static const auto parts = static_cast<std::size_t>(info_of(id).parts);
   constexpr double least = -16300;
-  constexpr double farthest = 25000;
   // Its zeros do not come from arguments that a pair has no number for.
   constexpr bool keeps_zeros = id == FunctionId::spherical_harmonic;
   constexpr double ulps = Format<W>::bits > double_double_bits ? 0x1p14 : 0x1p-34;
@@ -203,7 +207,8 @@ void extended(const W* args, W* results, double* bounds, std::size_t count, int 
       const bool finite = value.hi != 0 && value.hi - value.hi == 0;
       const double exponent = finite ? scales[k] + std::ilogb(value.hi) : 0;
       // What double has no number for, and what W has none for, is told as by a pair.
-      const bool told = bound[k] >= 0 && (finite ? std::fabs(exponent) > farthest : bound[k] == 2);
+      const bool told =
+          bound[k] >= 0 && (finite ? std::fabs(exponent) > complex_dd::farthest_exponent : bound[k] == 2);
       if (told || (keeps_zeros && bound[k] == 0 && value.hi == 0)) {
         const bool small = finite ? exponent < 0 : value.hi == 0;
         const double size = small ? 0 : std::numeric_limits<double>::infinity();

@@ -181,9 +181,8 @@ TEST(DoubleDoubleFarExponents, ArgumentsAndRootsAndLogarithmsAreKnown) {
 // Products below 2^-2300 are told as zeros that are none, above 2^2300 as infinities.
 TEST(DoubleDoubleFarExponents, PartsFarBeyondDoubleAreTold) {
   const WideExponentRange wide;
-  const std::vector<Doubles> points = {{40, 0, -0x1p-600}, {80, 40, -0x1p-700}, {100, 50, 0x1p-100}};
-  for (const Doubles& x : points) {
-    const Doubles bessel = {x[0], x[2]};
+  const std::vector<Doubles> points = {{40, -0x1p-600}, {80, -0x1p-700}, {100, 0x1p-100}};
+  for (const Doubles& bessel : points) {
     std::vector<MpfrValue> args;
     for (const double a : bessel) mpfr_set_d(args.emplace_back(53), a, MPFR_RNDN);
     std::vector<MpfrValue> exact;
@@ -213,6 +212,7 @@ TEST(DoubleDoubleFarExponents, SpecialFunctionsOfNumbersBeyondDoubleAreKnown) {
     std::vector<MpfrValue> args;
     for (const long double a : x) mpfr_set_ld(args.emplace_back(64), a, MPFR_RNDN);
     std::vector<MpfrValue> exact;
+    exact.reserve(static_cast<std::size_t>(f.parts));
     for (int part = 0; part < f.parts; ++part) exact.emplace_back(200);
     exact_value(f, args, exact);
     std::array<long double, 2> values{};

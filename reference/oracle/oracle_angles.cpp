@@ -1,8 +1,6 @@
 // Sines of huge angles and arguments of complex numbers.
 #include "reference/oracle/oracle_angles.hpp"
 
-#include <gmp.h>
-
 #include <cmath>
 
 #include "reference/types/mpfr_value.hpp"
@@ -12,19 +10,6 @@ namespace ulpgate::oracle {
 namespace {
 
 constexpr auto nearest = MPFR_RNDN;
-
-class MpzValue {
- public:
-  MpzValue() { mpz_init(value_); }
-  MpzValue(const MpzValue&) = delete;
-  MpzValue& operator=(const MpzValue&) = delete;
-  ~MpzValue() { mpz_clear(value_); }
-  // NOLINTNEXTLINE(google-explicit-constructor): stands wherever the C library wants its pointer
-  operator mpz_ptr() { return value_; }
-
- private:
-  mpz_t value_;
-};
 
 // Below this exponent MPFR's own reduction has a few words more to divide; above the last one the bits of
 // 2/pi are too many to keep.

@@ -98,8 +98,8 @@ void normalized_legendre(long n, long m, mpfr_srcptr theta, MpfrValue& result) {
   mpfr_pow_ui(s, s, static_cast<unsigned long>(m), nearest);
   mpfr_mul(value, value, s, nearest);
   if (m % 2 == 1) mpfr_neg(value, value, nearest);
-  mpz_t product;
-  mpz_init_set_ui(product, 1);
+  MpzValue product;
+  mpz_set_ui(product, 1);
   for (long i = 3; i < 2 * m; i += 2) mpz_mul_ui(product, product, static_cast<unsigned long>(i));
   mpfr_mul_z(value, value, product, nearest);
   mpz_set_ui(product, 1);
@@ -107,7 +107,6 @@ void normalized_legendre(long n, long m, mpfr_srcptr theta, MpfrValue& result) {
   mpfr_const_pi(c, nearest);
   mpfr_mul_ui(c, c, 4, nearest);
   mpfr_mul_z(c, c, product, nearest);
-  mpz_clear(product);
   mpfr_ui_div(c, static_cast<unsigned long>(2 * n + 1), c, nearest);
   mpfr_sqrt(c, c, nearest);
   mpfr_mul(result, value, c, nearest);
@@ -191,11 +190,9 @@ bool near_bessel(mpfr_ptr out, long n, mpfr_srcptr x) {
   mpfr_pow_ui(power, x, static_cast<unsigned long>(n), nearest);
   mpfr_div_2ui(power, power, static_cast<unsigned long>(n), nearest);
   mpfr_mul(power, power, sum, nearest);
-  mpz_t product;
-  mpz_init(product);
+  MpzValue product;
   mpz_fac_ui(product, static_cast<unsigned long>(n));
   mpfr_div_z(out, power, product, nearest);
-  mpz_clear(product);
   return true;
 }
 
@@ -241,11 +238,9 @@ void laguerre(std::span<const MpfrValue> a, std::span<MpfrValue> out) {
     lost = laguerre_sum(n, m, a[2], sum);
   }
   if (lost >= bits) mpfr_set_zero(sum, 1);
-  mpz_t binomial;
-  mpz_init(binomial);
+  MpzValue binomial;
   mpz_bin_uiui(binomial, static_cast<unsigned long>(n + m), static_cast<unsigned long>(n));
   mpfr_mul_z(out[0], sum, binomial, nearest);
-  mpz_clear(binomial);
 }
 
 bool is_rounded_laguerre(std::span<const MpfrValue> a, mpfr_srcptr value) {

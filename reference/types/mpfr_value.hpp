@@ -1,6 +1,7 @@
-// Owners of MPFR and MPC numbers, and the wide exponent range that references are computed in.
+// Owners of MPFR, MPC and GMP numbers, and the wide exponent range that references are computed in.
 #pragma once
 
+#include <gmp.h>
 #include <mpc.h>
 #include <mpfr.h>
 
@@ -31,6 +32,20 @@ class MpfrValue {
 
  private:
   mpfr_t value_;
+};
+
+// Owns one mpz_t.
+class MpzValue {
+ public:
+  MpzValue() { mpz_init(value_); }
+  MpzValue(const MpzValue&) = delete;
+  MpzValue& operator=(const MpzValue&) = delete;
+  ~MpzValue() { mpz_clear(value_); }
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  operator mpz_ptr() { return value_; }
+
+ private:
+  mpz_t value_;
 };
 
 // Owns one mpc_t with equal precisions of both parts.
